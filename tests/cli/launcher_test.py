@@ -591,7 +591,7 @@ cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
         self.write("slower.sh", "touch begun\nuntil [ -e slept-twice ]; do sleep 0.05; done\n")
         self.stand_in("sleep", f"""[ "$1" = 10 ] || exec /bin/sleep $1
 cd {self.path("build/release")}
-while ! [ -e begun ]; do /bin/sleep 0.05; done
+while ! [ -e begun ]; do [ -d {self.folder} ] || exit; /bin/sleep 0.05; done
 [ ! -e slept ] || touch slept-twice
 touch slept
 """)

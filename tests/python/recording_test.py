@@ -86,7 +86,7 @@ def test_values_that_need_more_frames_are_missing_with_the_reason():
     slow = swirl.Simulation(discs=20, seed=3).sample(5, 30)
     found = swirl.analyse(slow, ["residence", "order"])
     assert math.isnan(found.measured["residence"].rows["length"].mean)
-    assert "residence.share" in found.warnings[0] and "hint:" in found.warnings[0]
+    assert "residence (400)" in found.warnings[0] and "hint:" in found.warnings[0]
     assert swirl.analyse(slow, ["density"]).warnings == ()
 
 

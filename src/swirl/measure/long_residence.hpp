@@ -45,7 +45,7 @@ inline double least_length(double minimum, double step, double period) {
 }
 
 /// Lowest frame rate at which residences are determined.
-inline constexpr double min_rate_of_resident = quantity("residence.share").min_rates.of_frames;
+inline constexpr double min_rate_of_resident = quantity("slip.resident").min_rates.of_frames;
 
 /// True if the centre of disc i is less than `radii` of its radii from the wall. A layer thicker
 /// than the container contains every disc.
