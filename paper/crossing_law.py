@@ -3,12 +3,13 @@
 import os
 
 import tables
+from paper_parameters import AMPLITUDE, CONTAINER_RADIUS
 
-PAPER = 8.6, 0.22  # R/r and A/R
+PAPER = CONTAINER_RADIUS, AMPLITUDE / CONTAINER_RADIUS  # R/r and A/R
 
 
 def law(mu, inertia, cannot_spin, container_radius):
-    """N_c by a friction part and a spin part, both fixed before these runs."""
+    """N_c in a container of this radius, in radii of a disc. It grows with the area."""
     spins = 0 if cannot_spin else 45.1 * inertia ** -0.13
     return (container_radius / PAPER[0]) ** 2 * ((26.4 * mu ** -0.44) ** 3 + spins ** 3) ** (1 / 3)
 

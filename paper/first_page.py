@@ -161,7 +161,7 @@ def predictions_found(study):
 def frustration_found(study):
     """The title of the paper, judged by the figure that stops the spins."""
     title = judged(TITLE, study)
-    incomplete = TITLE.missing_points(study) or TITLE.short_runs(study)
+    incomplete = TITLE.why_undecided(study)
     parts = []
     for body in ("discs", "spheres"):
         induces = UNDECIDED if incomplete else spheres.stopped_spins(study, body)[0].verdict

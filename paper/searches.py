@@ -19,12 +19,12 @@ def search(parameters):
 
 
 def search_point(settings, name, parameters, min_discs, max_discs, cells, tolerance=0.2, min_periods=100):
-    """A search, with shorter runs if `events` shortens those of the other points. N_c is then as uncertain as they are."""
-    coarser = max(1.0, math.sqrt(DEFAULT_EVENTS / settings.events_of_a_run))
+    """A search. Its runs are shorter if `events` shortens those of the other points, and N_c is as uncertain as they are."""
+    coarser = math.sqrt(DEFAULT_EVENTS / settings.events_of_a_run)
     shorter = {"events": int(settings.events)} if coarser > 1 else {}
     return Point(settings, name, 1, {**shorter, **parameters, "min_discs": min_discs, "max_discs": max_discs,
                                      "tolerance": min(tolerance * coarser, 0.1 * (max_discs - min_discs)),
-                                     "min_periods": min(min_periods, settings.periods(min_periods, 5))},
+                                     "min_periods": settings.periods(min_periods, 5)},
                  work=search, cells=cells)
 
 

@@ -23,7 +23,7 @@ from figure import Figure
 from jackknife import jackknife
 from runs import lengths, text
 from searches import search_cells, search_point
-from study import DEFAULT_EVENTS, Point
+from study import Point
 
 BODIES = {"discs": {}, "spheres": {"preset": "experiment"}}
 SPINS = {"free": 0, "stopped": 1}
@@ -208,9 +208,8 @@ def repeated_points(settings):
             if quantity == "N_c":
                 made.append(crossing_point(own, run, cells))
             else:
-                bearing = are_bearings("stopped" if run["cannot_spin"] else "free",
-                                       "all contacts" if run["mu_disc"] else "none between particles")
-                lasts = lengths(settings, (300 if bearing else 100, 1), (150 if bearing else 400, 3))
+                lasts = length(settings, "discs", "stopped" if run["cannot_spin"] else "free",
+                               "all contacts" if run["mu_disc"] else "none between particles")
                 made.append(Point(own, f"cause_repeated_{k}_{name}", settings.chapter_seeds, run | lasts,
                                   ["slip", "frustration", "residence"], cells=cells))
     return made
@@ -284,8 +283,8 @@ def points(settings):
         bearings = are_bearings(spins, contacts)
         run = given(body, spins, contacts, discs) | (
             lengths(settings, (20, 1), (10, 2)) if body == "spheres" else lengths(settings, (150 if bearings else 30, 1), (30, 2)))
-        made.append(Point(settings, f"cause_load_{body}_{spins}_{contacts.replace(' ', '-')}_N{discs}", settings.chapter_seeds, run, work=loads,
-                          cells={"load of": (body, spins, contacts, discs)}))
+        made.append(Point(settings, f"cause_load_{body}_{spins}_{contacts.replace(' ', '-')}_N{discs}",
+                          settings.chapter_seeds, run, work=loads, cells={"load of": (body, spins, contacts, discs)}))
     made += [crossing_point(settings, run, {"search": body, **run}) for body, run in searches(settings)]
     return made + floor_points(settings) + repeated_points(settings)
 
@@ -294,9 +293,8 @@ def crossing_point(settings, run, cells):
     """Searches with discs that are repeated have smaller errors."""
     precise = "preset" not in run and any(run == repeated for quantity, repeated, *_ in BEFORE if quantity == "N_c")
     tolerance, periods = (0.2, 100) if precise else (0.3, 60)
-    larger = math.sqrt(DEFAULT_EVENTS / settings.events_of_a_run)  # as the errors of shorter runs are
     name = "_".join(f"{key}{text(value) if key != 'preset' else ''}" for key, value in run.items())
-    return search_point(settings, f"cause_crossing_{name}", run, 12, 54, cells, tolerance * larger, settings.periods(periods, 5))
+    return search_point(settings, f"cause_crossing_{name}", run, 12, 54, cells, tolerance, periods)
 
 
 # --- Tables -----------------------------------------------------------------------------------------

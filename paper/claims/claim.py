@@ -51,7 +51,7 @@ class Claim:
         """(Judgement, what was found) from the tables of the study."""
         try:
             judgement, found = self.judge(study)
-            problem = self.missing_points(study) or self.short_runs(study)
+            problem = self.why_undecided(study)
         except FileNotFoundError as error:
             return Judgement(MISSING), f"The table {os.path.basename(error.filename)} does not exist."
         except KeyError as error:
@@ -61,6 +61,10 @@ class Claim:
         if problem:
             return Judgement(UNDECIDED), f"{problem}. {found}"
         return judgement, found
+
+    def why_undecided(self, study):
+        """What the data lack to decide the claim; empty if they suffice."""
+        return self.missing_points(study) or self.short_runs(study)
 
     def needed_rows(self, study):
         """(table, columns of the rows, the needed rows that did not fail, column, values) of each entry of `needs`."""

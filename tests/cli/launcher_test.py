@@ -507,7 +507,7 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         """Runs a script of sh in which build is a disk of 16 kB and ./swirl the launcher; its output and errors in one.
         The script changes the disk with `change OPTIONS`."""
         os.makedirs(self.path("build"))
-        # Without its old options, of which the owner has no number in the new namespace.
+        # The old options of the disk name an owner without a number in the new namespace, so they are ignored.
         before = """change() { mount --options-mode ignore -t tmpfs -o "remount,$1" swirl build || fail; }
 fail() { echo "cannot mount"; exit; }
 cd "$1" && mount -t tmpfs -o size=16k swirl build || fail

@@ -12,6 +12,8 @@ import subprocess
 import tempfile
 import unittest
 
+from program import other_user
+
 SOURCE = os.environ["SWIRL_SOURCE"]
 BUILD = os.environ["SWIRL_LIBRARIES"]
 
@@ -24,11 +26,6 @@ def output_of(*words, **more):
 
 def files_below(folder):
     return sorted(os.path.join(path, name) for path, _, names in os.walk(folder) for name in names)
-
-
-def unprivileged_user():
-    """Arguments of subprocess that choose the user nobody, if this process is root."""
-    return {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
 
 
 class Installed(unittest.TestCase):
@@ -100,7 +97,7 @@ class Installed(unittest.TestCase):
         os.mkdir(work)
         os.chmod(work, 0o777)
         output_of(self.program, "paper", "--figure", "5b", "--quick", "--events", 2000, cwd=work,
-                  env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}, **unprivileged_user())
+                  env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}, **other_user())
         with open(os.path.join(work, "out", "figure_5b.csv"), newline="") as file:
             self.assertGreater(len(list(csv.DictReader(file))), 10)
         self.assertGreater(os.path.getsize(os.path.join(work, "out", "figure_5b.png")), 5000)

@@ -441,7 +441,8 @@ std::string agreement_sentence(const std::vector<NamedCurve>& curves, const std:
 
 std::vector<std::string> Experiment::findings() const {
     std::vector<std::string> findings;
-    for (const NamedCurve& curve : curves()) {
+    const std::vector<NamedCurve> all = curves();
+    for (const NamedCurve& curve : all) {
         if (curve.points().size() < 2) {
             findings.push_back(
                 fmt::format("{}: there is only one number of discs; finding the transition to "
@@ -456,7 +457,7 @@ std::vector<std::string> Experiment::findings() const {
             crossing_sentence(curve)));
     }
     for (const bool smooth : {false, true})
-        if (const std::string text = agreement_sentence(curves(), kind_of(smooth)); !text.empty())
+        if (const std::string text = agreement_sentence(all, kind_of(smooth)); !text.empty())
             findings.push_back(text);
     for (std::size_t k = 0; k < videos_.size(); ++k)
         add_video_findings(videos_[k], simulated(k), findings);

@@ -7,6 +7,7 @@ import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
 import {fileURLToPath, pathToFileURL} from "node:url";
 import {build} from "esbuild";
+import {runsOf} from "./background.mjs";
 
 const [wasm, points = "60"] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "swirl-coverage-"));
@@ -22,12 +23,7 @@ const periods = 50, warmup = 20;
 try {
     const {Engine, perRate} = await load("engine"), {Runs, seedsPerPoint} = await load("runs"), {liveEstimate} = await load("estimates");
     const module = await WebAssembly.compile(readFileSync(wasm));
-    const evaluation = new Engine(module), background = new Runs(() => { // a worker without a thread
-        const worker = {postMessage: ({runs}) => say({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(runs[rate]))})};
-        const say = (data) => queueMicrotask(() => worker.onmessage({data}));
-        say({kind: "ready"});
-        return worker;
-    }, 1);
+    const background = runsOf(Runs, new Engine(module), perRate);
     /** The rotation after `periods`, and after one more, which completes the last of them on display. */
     const run = (discs, seed) => {
         const engine = new Engine(module);

@@ -7,6 +7,7 @@ import {tmpdir} from "node:os";
 import {dirname, join} from "node:path";
 import {fileURLToPath, pathToFileURL} from "node:url";
 import {build} from "esbuild";
+import {runsOf} from "./background.mjs";
 
 const [table, wasm, files] = process.argv.slice(2);
 const parameters = JSON.parse(readFileSync(table, "utf-8"));
@@ -86,12 +87,7 @@ try {
     const shared = [link(11, "8_0.1_0.01_200,48_-0.04_0.01_50"), link(12, "8_0.2_0.01_200", "&lang=de"), link(12, "8_0.2_0.01_200"),
                     link(13, "8_0.9_0.01_200", "&mu=0.1"), "nonsense", "?seed=14"].join("\n");
     const engine = new Engine(module), {Runs} = await load("runs");
-    const runs = new Runs(() => { // a worker without a thread
-        const worker = {postMessage: ({runs}) => say({kind: "crossing", crossings: perRate((rate) => engine.crossing(runs[rate]))})};
-        const say = (data) => queueMicrotask(() => worker.onmessage({data}));
-        say({kind: "ready"});
-        return worker;
-    }, 1);
+    const runs = runsOf(Runs, engine, perRate);
     const {points: ofClass, pupils, omitted} = await pooled(shared, "", isKnown, (all) => runs.estimates(all));
     assert.deepEqual([pupils, omitted, [...ofClass.keys()]], [2, 3, [8, 48]]);
     assert.ok(Math.abs(ofClass.get(8).mean - 0.15) < 1e-12);

@@ -51,6 +51,7 @@ struct MFrame {
     Vec2 wall_velocity(const Vec2& p) const { return -omega * perpendicular(p); }
     double spin(double lab) const { return lab - omega; }
     double lab_spin(double spin) const { return spin + omega; }
+    double period() const { return 2.0 * pi / omega; }
     /// The angle from the lab to the M-frame, counter-clockwise.
     double angle() const { return 2.0 * pi * turns_of(perpendicular(down)); }
 };

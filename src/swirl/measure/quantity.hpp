@@ -64,20 +64,19 @@ struct Unit {
     }
 };
 
+constexpr double integer_power(double base, int exponent) {
+    double product = 1.0;
+    for (int k = exponent < 0 ? -exponent : exponent; k > 0; --k) product *= base;
+    return exponent < 0 ? 1.0 / product : product;
+}
+
 /// r, v and m in the units of the snapshots: the radius and the mass of a disc, and the speed of the
 /// container.
 struct MeasuredUnits {
     double r = 1.0, v = 1.0, m = 1.0;
 
     double of(const Unit& unit) const {
-        return power(r, unit.r) * power(v, unit.v) * power(m, unit.m);
-    }
-
-  private:
-    static double power(double base, int exponent) {
-        double product = 1.0;
-        for (int k = exponent < 0 ? -exponent : exponent; k > 0; --k) product *= base;
-        return exponent < 0 ? 1.0 / product : product;
+        return integer_power(r, unit.r) * integer_power(v, unit.v) * integer_power(m, unit.m);
     }
 };
 

@@ -14,7 +14,7 @@ void WallResidences::sample(const MFrameView& view) {
     }
     last_time_ = view.time;
     if (n == 0) return;
-    const double period = 2.0 * pi / view.frame.omega, count = static_cast<double>(n);
+    const double period = view.frame.period(), count = static_cast<double>(n);
     for (std::size_t l = 0; l < layers.size(); ++l) {
         std::array<double, minimum.size()> pinned{};  // samples
         for (std::size_t i = 0; i < n; ++i) {

@@ -52,7 +52,7 @@ void PinnedSeries::find(std::uint64_t begin) {
             stays.assign(n, {});
             tracks.begin_tracks();
         }
-        const double period = 2.0 * pi / view.frame.omega;
+        const double period = view.frame.period();
         minimum_ = least_length(long_residence, period / rate_, period);
         columns_of(k).pinned.assign(n, not_available);
         columns_of(k).resident.assign(n, not_available);

@@ -353,12 +353,6 @@ void append_power(std::string& text, std::string_view unit, int power) {
     text += power < 4 ? exponents[power] : fmt::format("^{}", power);
 }
 
-double raised(double base, int exponent) {
-    return exponent < 0    ? 1.0 / raised(base, -exponent)
-           : exponent == 0 ? 1.0
-                           : base * raised(base, exponent - 1);
-}
-
 }  // namespace
 
 std::optional<PrintedUnit> in_user_units(const Unit& unit, const RunConfig& config,
@@ -366,11 +360,12 @@ std::optional<PrintedUnit> in_user_units(const Unit& unit, const RunConfig& conf
     const int length = unit.length(), time = unit.time();
     if (length == 0 && time == 0) return {};
     const MeasuredUnits measured = units_of(config);
-    PrintedUnit found{raised(measured.r * user.length, unit.r) *
-                          raised(measured.v * user.length / user.time, unit.v) *
-                          raised(config.omega() / user.time, std::max(unit.omega, 0)) *
-                          raised(config.period * user.time, std::max(-unit.omega, 0)),
-                      {}};
+    const MeasuredUnits in_user{measured.r * user.length, measured.v * user.length / user.time,
+                                1.0};
+    const double rate = config.omega() / user.time, period = config.period * user.time;
+    PrintedUnit found{.factor = in_user.of(unit) * integer_power(rate, std::max(unit.omega, 0)) *
+                                integer_power(period, std::max(-unit.omega, 0)),
+                      .text = {}};
     // Not "m", which would be metres.
     append_power(found.text, "particle mass", unit.m);
     append_power(found.text, "rad", unit.omega);

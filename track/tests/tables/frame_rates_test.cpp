@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>

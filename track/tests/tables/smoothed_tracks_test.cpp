@@ -121,7 +121,6 @@ void expect_same_angle(const Estimate& found, const Estimate& exact) {
     EXPECT_LT(std::abs(apart), 2.0 * std::hypot(found.error, exact.error)) << found.mean;
 }
 
-// Negative: without smoothing, both results are wrong.
 /// Differences that are measured as velocities, which the registry of quantities rules out.
 SnapshotSeries with_differences(Tracks tracks, const TrackScale& scale) {
     SnapshotSeries series = series_of(std::move(tracks), scale);
@@ -129,6 +128,7 @@ SnapshotSeries with_differences(Tracks tracks, const TrackScale& scale) {
     return series;
 }
 
+// Negative: without smoothing, both results are wrong.
 TEST(SmoothedTracks, FiniteDifferencesBiasPinningAndTemperature) {
     const Found exact = exactly(laboratory());
     const Found raw =
