@@ -1,7 +1,7 @@
 """bench/measurement_costs.py PROGRAM: prints the cost of each measurement as a Markdown table.
 
-A cost is the processor time of a run that makes one measurement, relative to that of the same run without. Each run is
-repeated, and its shortest time counts.
+A cost is the processor time of a run that makes one measurement, relative to that of the same run
+without. Each run is repeated, and its shortest time counts.
 """
 
 import argparse
@@ -15,20 +15,32 @@ def seconds(program, measurements, repeats):
     shortest = float("inf")
     for _ in range(repeats):
         begin = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-        subprocess.run([program, *RUN, *measurements], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        subprocess.run(
+            [program, *RUN, *measurements],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.DEVNULL,
+        )
         shortest = min(shortest, resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - begin)
     return shortest
 
 
 def names_of(program):
     """The measurements of --measure help: lines "name: what it is" without indent."""
-    listed = subprocess.run([program, "run", "--measure", "help"], check=True, capture_output=True, encoding="utf-8").stdout
-    return [line.partition(":")[0] for line in listed.splitlines() if line and line[0].isalpha() and line[0].islower()
-            and " " not in line.partition(":")[0]]
+    listed = subprocess.run(
+        [program, "run", "--measure", "help"], check=True, capture_output=True, encoding="utf-8"
+    ).stdout
+    return [
+        line.partition(":")[0]
+        for line in listed.splitlines()
+        if line and line[0].isalpha() and line[0].islower() and " " not in line.partition(":")[0]
+    ]
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
     parser.add_argument("program")
     parser.add_argument("--repeats", type=int, default=3)
     call = parser.parse_args()
@@ -37,7 +49,10 @@ def main():
     lists = {name: name for name in names}
     lists["all but `fields`"] = ",".join(name for name in names if name != "fields")
     lists["all"] = "all"
-    costs = {name: seconds(call.program, ["--measure", listed], call.repeats) / plain for name, listed in lists.items()}
+    costs = {
+        name: seconds(call.program, ["--measure", listed], call.repeats) / plain
+        for name, listed in lists.items()
+    }
     print("| measurement | cost |\n|---|---|")
     for name, cost in sorted(costs.items(), key=lambda item: item[1]):
         print(f"| {name if ' ' in name else f'`{name}`'} | {cost:.1f} |")

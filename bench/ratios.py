@@ -1,4 +1,5 @@
-"""bench/ratios.py FOLDER ROUNDS: prints the median ratios for compare.sh, from old-K.json and new-K.json."""
+"""bench/ratios.py FOLDER ROUNDS: prints the median ratios for compare.sh, from old-K.json and
+new-K.json."""
 
 import argparse
 import csv
@@ -8,12 +9,16 @@ import sys
 
 
 def measured(file):
-    """Rates by scene, discs and width; and all named values except rates and ratios to a baseline."""
+    """Rates by scene, discs and width; and all named values except rates and ratios to a
+    baseline."""
     with open(file, encoding="utf-8") as f:
         result = json.load(f)
     rates = {(row["scene"], row["discs"], row["width"]): row["rate"] for row in result["rows"]}
-    others = {target["name"]: target["value"] for target in result["targets"]
-               if "per second" not in target["name"] and not target["name"].startswith("rate over the")}
+    others = {
+        target["name"]: target["value"]
+        for target in result["targets"]
+        if "per second" not in target["name"] and not target["name"].startswith("rate over the")
+    }
     return rates, others
 
 
@@ -37,7 +42,9 @@ def instruction_ratios(folder):
     for which in ("old", "new"):
         with open(f"{folder}/{which}-instructions.json", encoding="utf-8") as f:
             counts.append(json.load(f))
-    return {scene: [counts[1][scene] / old] for scene, old in counts[0].items() if scene in counts[1]}
+    return {
+        scene: [counts[1][scene] / old] for scene, old in counts[0].items() if scene in counts[1]
+    }
 
 
 def write_csv(file, tables):
@@ -46,15 +53,27 @@ def write_csv(file, tables):
         lines.writerow(["what", "scene", "ratio", "lowest", "highest", "pairs"])
         for title, found in tables.items():
             for key, r in found.items():
-                lines.writerow([title.split(",")[0], words(key), f"{statistics.median(r):.4f}",
-                                f"{min(r):.4f}", f"{max(r):.4f}", len(r)])
+                lines.writerow(
+                    [
+                        title.split(",")[0],
+                        words(key),
+                        f"{statistics.median(r):.4f}",
+                        f"{min(r):.4f}",
+                        f"{max(r):.4f}",
+                        len(r),
+                    ]
+                )
 
 
 def main(folder, rounds, csv_file, with_instructions):
-    runs = [[measured(f"{folder}/{which}-{k}.json") for which in ("old", "new")]
-            for k in range(1, rounds + 1)]
-    tables = {title: ratios([(old[part], new[part]) for old, new in runs])
-              for title, part in (("rates, new / old", 0), ("other values, new / old", 1))}
+    runs = [
+        [measured(f"{folder}/{which}-{k}.json") for which in ("old", "new")]
+        for k in range(1, rounds + 1)
+    ]
+    tables = {
+        title: ratios([(old[part], new[part]) for old, new in runs])
+        for title, part in (("rates, new / old", 0), ("other values, new / old", 1))
+    }
     if with_instructions:
         tables["instructions per event, new / old"] = instruction_ratios(folder)
     for title, found in tables.items():
@@ -63,7 +82,10 @@ def main(folder, rounds, csv_file, with_instructions):
         for key, r in found.items():
             print(f"  {words(key):<64}{statistics.median(r):7.3f}   ({min(r):.3f} to {max(r):.3f})")
     (old, _), (new, _) = runs[0]
-    for title, keys in (("only new", new.keys() - old.keys()), ("only old", old.keys() - new.keys())):
+    for title, keys in (
+        ("only new", new.keys() - old.keys()),
+        ("only old", old.keys() - new.keys()),
+    ):
         if keys:
             print(f"{title}: " + "; ".join(sorted(map(words, keys))))
     if csv_file:
@@ -75,7 +97,10 @@ if __name__ == "__main__":
     parser.add_argument("folder")
     parser.add_argument("rounds", type=int)
     parser.add_argument("--csv", help="file for all ratios")
-    parser.add_argument("--instructions", action="store_true",
-                        help="also compare old-instructions.json and new-instructions.json")
+    parser.add_argument(
+        "--instructions",
+        action="store_true",
+        help="also compare old-instructions.json and new-instructions.json",
+    )
     given = parser.parse_args()
     main(given.folder, given.rounds, given.csv, given.instructions)

@@ -1,17 +1,21 @@
-"""Videos as students and laboratories make them: swirl track, and on request a baseline, against the ground truth.
+"""Videos as students and laboratories make them: swirl track, and on request a baseline, against
+the ground truth.
 
-    student_videos.py               the tables of kinds in docs/results/tracking_accuracy.md (minutes)
-    student_videos.py --baseline    with the tracker of opencv_tracker.py on the same videos; needs opencv and scipy
+    student_videos.py               the tables of kinds in docs/results/tracking_accuracy.md
+                                    (minutes)
+    student_videos.py --baseline    with the tracker of opencv_tracker.py on the same videos; needs
+                                    opencv and scipy
     student_videos.py --kind NAME   this kind only; may be repeated
     student_videos.py --periods N   length of the students' videos [4]
-    student_videos.py --seed N      of the discs and the camera, in place of that of each kind; may be repeated
+    student_videos.py --seed N      of the discs and the camera, in place of that of each kind; may
+                                    be repeated
 
-SWIRL is the program. A student's video has 28 discs and is made by `swirl synthetic-video --camera student` (30
-frames per second, 2 periods per second, 640x480 pixels) with the options of its kind.
+SWIRL is the program. A student's video has 28 discs and is made by `swirl synthetic-video --camera
+student` (30 frames per second, 2 periods per second, 640x480 pixels) with the options of its kind.
 
-In interlaced videos the odd rows are half a frame interval later than the even rows. The ground truth is that of
-the even rows. A video by hand starts and stops, and its speed varies by a fourth. A video that is rejected with a
-hint is tracked again with the options of the hint.
+In interlaced videos the odd rows are half a frame interval later than the even rows. The ground
+truth is that of the even rows. A video by hand starts and stops, and its speed varies by a fourth.
+A video that is rejected with a hint is tracked again with the options of the hint.
 """
 
 import argparse
@@ -42,7 +46,11 @@ LARGE = ["--width", 1920, "--height", 1080, "--scale", 44]
 # Name, options of synthetic-video, what is done to the video afterwards.
 KINDS = [
     ("plain", [], None),
-    ("steel balls", ["--disc-level", 60, "--floor-level", 200, "--gloss", 200, "--texture", 0.1], None),
+    (
+        "steel balls",
+        ["--disc-level", 60, "--floor-level", 200, "--gloss", 200, "--texture", 0.1],
+        None,
+    ),
     ("1080p", LARGE, None),
     ("rolling shutter", ["--rolling-shutter", 0.8], None),
     ("variable frame rate", ["--frames-per-period", 4 * PERIOD], "uneven"),
@@ -62,17 +70,69 @@ KINDS = [
     ("moving shadow", ["--shadow", 60], None),
     ("pixels of 4:3", [], "anamorphic"),
     # Complete calls: other cameras and difficult set-ups.
-    ("laboratory", ["--camera", "laboratory", "--discs", 36, "--frames-per-period", 128, "--length", 1.5], "complete"),
+    (
+        "laboratory",
+        ["--camera", "laboratory", "--discs", 36, "--frames-per-period", 128, "--length", 1.5],
+        "complete",
+    ),
     ("phone", ["--camera", "phone", "--discs", 48, "--length", 1.5, "--quality", 26], "complete"),
     ("bad", ["--camera", "bad", "--discs", 28, "--length", 4, "--quality", 26], "complete"),
-    ("two sizes of steel", ["--camera", "steel", "--discs", 32, "--mixture", "10:1.35", "--length", 1.5, "--quality", 24],
-     "complete"),
-    ("camera tilted by 8 degrees", [*ROUGH, "--length", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
-     "complete"),
-    ("three fast discs", ["--camera", "student", "--discs", 3, "--seed", 4, "--quality", 23, "--length", 2], "complete"),
-    ("light from one side", [*ROUGH, "--length", 6, "--quality", 14, *LIGHT, "--gloss", 60], "complete"),
-    ("contrast 1.3:1", [*ROUGH, "--length", 2.5, "--floor-level", 100, "--contrast", 1.3, "--rim-level", 110, "--gloss",
-                        10, "--texture", 0.2, "--light-elevation", 45, "--noise", 3, "--quality", 29], "complete"),
+    (
+        "two sizes of steel",
+        [
+            "--camera",
+            "steel",
+            "--discs",
+            32,
+            "--mixture",
+            "10:1.35",
+            "--length",
+            1.5,
+            "--quality",
+            24,
+        ],
+        "complete",
+    ),
+    (
+        "camera tilted by 8 degrees",
+        [*ROUGH, "--length", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
+        "complete",
+    ),
+    (
+        "three fast discs",
+        ["--camera", "student", "--discs", 3, "--seed", 4, "--quality", 23, "--length", 2],
+        "complete",
+    ),
+    (
+        "light from one side",
+        [*ROUGH, "--length", 6, "--quality", 14, *LIGHT, "--gloss", 60],
+        "complete",
+    ),
+    (
+        "contrast 1.3:1",
+        [
+            *ROUGH,
+            "--length",
+            2.5,
+            "--floor-level",
+            100,
+            "--contrast",
+            1.3,
+            "--rim-level",
+            110,
+            "--gloss",
+            10,
+            "--texture",
+            0.2,
+            "--light-elevation",
+            45,
+            "--noise",
+            3,
+            "--quality",
+            29,
+        ],
+        "complete",
+    ),
 ]
 
 
@@ -81,7 +141,8 @@ def ffmpeg(*arguments):
 
 
 class Video:
-    """A video of one kind with its ground truth: {frame: {disc: (x, y)}} and the container's centres."""
+    """A video of one kind with its ground truth: {frame: {disc: (x, y)}} and the container's
+    centres."""
 
     def __init__(self, folder, kind, periods, seed):
         self.name, options, after = kind
@@ -93,8 +154,10 @@ class Video:
             even = self.truth
             periods += REST + PAUSE
         self.make(made, options, periods)
-        self.centres = [(float(row["x_ideal"]), float(row["y_ideal"]))
-                        for row in track_test.rows(made[:-4] + ".container.csv")]
+        self.centres = [
+            (float(row["x_ideal"]), float(row["y_ideal"]))
+            for row in track_test.rows(made[:-4] + ".container.csv")
+        ]
         self.dark = "steel" in self.name
         self.path, regular = made, even if after == "by hand" else self.truth
         if after == "uneven":
@@ -104,9 +167,23 @@ class Video:
         elif after == "rotated":
             self.path = os.path.join(folder, "rotated.mp4")
             ffmpeg("-i", made, "-c", "copy", "-metadata:s:v:0", "rotate=90", self.path)
-            angle = subprocess.run(["ffprobe", "-v", "error", "-select_streams", "v", "-show_entries",
-                                    "stream_side_data=rotation", "-of", "csv=p=0", self.path],
-                                   capture_output=True, check=True, encoding="utf-8").stdout
+            angle = subprocess.run(
+                [
+                    "ffprobe",
+                    "-v",
+                    "error",
+                    "-select_streams",
+                    "v",
+                    "-show_entries",
+                    "stream_side_data=rotation",
+                    "-of",
+                    "csv=p=0",
+                    self.path,
+                ],
+                capture_output=True,
+                check=True,
+                encoding="utf-8",
+            ).stdout
             self.turns_left = float(angle.strip()) > 0.0
         elif after == "anamorphic":
             self.path = os.path.join(folder, "anamorphic.mp4")
@@ -119,8 +196,10 @@ class Video:
         call = [*([] if self.complete else [*COMMON, "--length", periods]), *options]
         if self.seed is not None:
             at = call.index("--seed") if "--seed" in call else len(call)
-            call[at:at + 2] = ["--seed", self.seed]
-        done = swirl("synthetic-video", *call, "--out", made, "--quiet", "--overwrite", timeout=HANG)
+            call[at : at + 2] = ["--seed", self.seed]
+        done = swirl(
+            "synthetic-video", *call, "--out", made, "--quiet", "--overwrite", timeout=HANG
+        )
         if done.returncode != 0:
             sys.exit(done.stderr)
         self.about = track_test.Truth(made).about
@@ -133,8 +212,17 @@ class Video:
         while taken[-1] + steps[len(taken) % len(steps)] < len(self.truth):
             taken.append(taken[-1] + steps[len(taken) % len(steps)])
         self.path = os.path.join(folder, "uneven.mp4")
-        ffmpeg("-i", made, "-vf", "select=" + "+".join(f"eq(n\\,{k})" for k in taken), "-fps_mode",
-               "passthrough", "-crf", 18, self.path)
+        ffmpeg(
+            "-i",
+            made,
+            "-vf",
+            "select=" + "+".join(f"eq(n\\,{k})" for k in taken),
+            "-fps_mode",
+            "passthrough",
+            "-crf",
+            18,
+            self.path,
+        )
         regular = {k // 4: self.truth[k] for k in range(0, len(self.truth), 4)}
         self.truth = {n: self.truth[k] for n, k in enumerate(taken)}
         self.centres = [self.centres[k] for k in taken]
@@ -144,8 +232,15 @@ class Video:
     def interleave_fields(self, folder, made):
         """Even rows of frames 1, 5, 9, …, and odd rows of frames 3, 7, 11, …"""
         self.path = os.path.join(folder, "interlaced.mp4")
-        ffmpeg("-i", made, "-vf", "select=mod(n\\,2),setpts=N/(60*TB),tinterlace=interleave_top", "-crf", 18,
-               self.path)
+        ffmpeg(
+            "-i",
+            made,
+            "-vf",
+            "select=mod(n\\,2),setpts=N/(60*TB),tinterlace=interleave_top",
+            "-crf",
+            18,
+            self.path,
+        )
         regular = {k // 4: self.truth[k] for k in range(0, len(self.truth), 4)}
         self.truth = {k // 4: self.truth[k] for k in range(1, len(self.truth), 4)}
         self.centres = self.centres[1::4]
@@ -153,10 +248,15 @@ class Video:
         return regular
 
     def turn_truth(self):
-        """A player turns the video by 90 degrees. Versions of ffmpeg differ in the direction that they write."""
+        """A player turns the video by 90 degrees. Versions of ffmpeg differ in the direction that
+        they write."""
+
         def turned(p):
             return (p[1], WIDTH - 1 - p[0]) if self.turns_left else (HEIGHT - 1 - p[1], p[0])
-        self.truth = {k: {i: turned(p) for i, p in discs.items()} for k, discs in self.truth.items()}
+
+        self.truth = {
+            k: {i: turned(p) for i, p in discs.items()} for k, discs in self.truth.items()
+        }
         self.centres = [turned(p) for p in self.centres]
 
 
@@ -168,15 +268,29 @@ def rotation(folder, positions, about):
         for frame in sorted(positions):
             for disc in sorted(positions[frame]):
                 file.write("%d,%d,%r,%r\n" % (frame, disc, *positions[frame][disc]))
-    return measured("measure", table, "--camera-fps", 1, "--scale", about["scale"], "--omega", about["omega"],
-                    "--centre", "%r,%r" % tuple(about["centre"]), "--phase", about["phase"], "--amplitude",
-                    about["amplitude"] / about["scale"], "--container-radius",
-                    about["container_radius"] / about["scale"])
+    return measured(
+        "measure",
+        table,
+        "--camera-fps",
+        1,
+        "--scale",
+        about["scale"],
+        "--omega",
+        about["omega"],
+        "--centre",
+        "%r,%r" % tuple(about["centre"]),
+        "--phase",
+        about["phase"],
+        "--amplitude",
+        about["amplitude"] / about["scale"],
+        "--container-radius",
+        about["container_radius"] / about["scale"],
+    )
 
 
 def measured(*call):
-    """ϖ/Ω by time and its error. Overlaps are permitted in all frames: inaccurate positions are scored, not
-    rejected."""
+    """ϖ/Ω by time and its error. Overlaps are permitted in all frames: inaccurate positions are
+    scored, not rejected."""
     done = swirl(*call, "--max-invalid", 1, "--json", "-")
     if done.returncode != 0:
         return math.nan, math.nan
@@ -185,10 +299,15 @@ def measured(*call):
 
 
 class Result(track_test.Score):
-    """The score of tracks with ϖ. Frames before the first and after the last tracked one are not scored."""
+    """The score of tracks with ϖ. Frames before the first and after the last tracked one are not
+    scored."""
 
     def __init__(self, video, found, varpi):
-        truth = {frame: discs for frame, discs in video.truth.items() if min(found) <= frame <= max(found)}
+        truth = {
+            frame: discs
+            for frame, discs in video.truth.items()
+            if min(found) <= frame <= max(found)
+        }
         super().__init__(truth, found, video.about)
         self.varpi = varpi
         radius, there, total = 0.5 * video.about["scale"], 0, 0
@@ -202,22 +321,32 @@ class Result(track_test.Score):
     def score_radii(self, camera, about):
         radius = camera["species"][0]["radius"]
         self.radius = radius / about["scale"] - 1.0
-        self.container = camera["container"]["radius"] / radius * about["scale"] / about["container_radius"] - 1.0
+        self.container = (
+            camera["container"]["radius"] / radius * about["scale"] / about["container_radius"]
+            - 1.0
+        )
 
 
 def track(folder, video):
-    """The result of swirl track, the claimed error, and what the program printed. The result is None if the video
-    is rejected, also with the frames of the hint."""
+    """The result of swirl track, the claimed error, and what the program printed. The result is
+    None if the video is rejected, also with the frames of the hint."""
     out = os.path.join(folder, "tracks.csv")
     options, said = [], ""
     for _ in range(2):
-        done = swirl("track", video.path, "--out", out, "--overwrite", "--quiet", *options, timeout=HANG)
+        done = swirl(
+            "track", video.path, "--out", out, "--overwrite", "--quiet", *options, timeout=HANG
+        )
         said += done.stderr
         if done.returncode == 0:
             break
-        options = re.findall(r"--(?:from|to|correct-frames) \S+|--discs", done.stderr.partition("hint:")[2])
-        options = [word for option in options
-                   for word in ((option, video.about["discs"]) if option == "--discs" else option.split())]
+        options = re.findall(
+            r"--(?:from|to|correct-frames) \S+|--discs", done.stderr.partition("hint:")[2]
+        )
+        options = [
+            word
+            for option in options
+            for word in ((option, video.about["discs"]) if option == "--discs" else option.split())
+        ]
         if not options:
             break
     if done.returncode != 0:
@@ -232,33 +361,60 @@ def track(folder, video):
 
 
 def track_with_baseline(video):
-    """The result of opencv_tracker.py, which is given the radius, the number and the brightness of the discs."""
+    """The result of opencv_tracker.py, which is given the radius, the number and the brightness of
+    the discs."""
     import cv2
     import opencv_tracker
+
     frames, film = [], cv2.VideoCapture(video.path)
     while (read := film.read())[0]:
         frames.append(cv2.cvtColor(read[1], cv2.COLOR_BGR2GRAY))
     about, start = dict(video.about), time.process_time()
-    found, path, radius, container = opencv_tracker.track(frames, about["scale"], about["discs"], not video.dark)
+    found, path, radius, container = opencv_tracker.track(
+        frames, about["scale"], about["discs"], not video.dark
+    )
     seconds = 1000.0 * (time.process_time() - start) / len(frames)
     result = Result(video, found, None)
     result.score_radii({"species": [{"radius": radius}], "container": {"radius": container}}, about)
-    about.update(scale=radius, centre=path[:2].tolist(), amplitude=float(path[2]), omega=abs(float(path[3])),
-                 phase=math.degrees(path[4]), container_radius=container)
+    about.update(
+        scale=radius,
+        centre=path[:2].tolist(),
+        amplitude=float(path[2]),
+        omega=abs(float(path[3])),
+        phase=math.degrees(path[4]),
+        container_radius=container,
+    )
     with tempfile.TemporaryDirectory(prefix="swirl-baseline-") as folder:
         result.varpi = rotation(folder, found, about)
     return result, seconds
 
 
-HEAD = ["found", "swaps per 1000", "rms, pixels", "error of r", "error of R/r", "ϖ/Ω", "s per 1000 frames"]
+HEAD = [
+    "found",
+    "swaps per 1000",
+    "rms, pixels",
+    "error of r",
+    "error of R/r",
+    "ϖ/Ω",
+    "s per 1000 frames",
+]
 
 
 def cells(result, seconds):
     if result is None:
         return ["rejected"] + (len(HEAD) - 1) * [""]
-    varpi = f"{result.varpi[0]:.3f}" + (f" ± {result.varpi[1]:.3f}" if result.varpi[1] >= 0.0 else "")
-    return [f"{100 * result.found:.1f} %", f"{result.swaps_per_thousand:.0f}", f"{result.rms:.2f}",
-            f"{100 * result.radius:+.1f} %", f"{100 * result.container:+.1f} %", varpi, f"{seconds:.0f}"]
+    varpi = f"{result.varpi[0]:.3f}" + (
+        f" ± {result.varpi[1]:.3f}" if result.varpi[1] >= 0.0 else ""
+    )
+    return [
+        f"{100 * result.found:.1f} %",
+        f"{result.swaps_per_thousand:.0f}",
+        f"{result.rms:.2f}",
+        f"{100 * result.radius:+.1f} %",
+        f"{100 * result.container:+.1f} %",
+        varpi,
+        f"{seconds:.0f}",
+    ]
 
 
 def main():
@@ -268,7 +424,13 @@ def main():
     parser.add_argument("--periods", type=int, default=4)
     parser.add_argument("--seed", type=int, action="append")
     call = parser.parse_args()
-    head = ["kind", "ϖ/Ω, true", "claimed/true", *HEAD, *(f"baseline: {name}" for name in HEAD if call.baseline)]
+    head = [
+        "kind",
+        "ϖ/Ω, true",
+        "claimed/true",
+        *HEAD,
+        *(f"baseline: {name}" for name in HEAD if call.baseline),
+    ]
     print("| " + " | ".join(head) + " |\n|" + len(head) * "---|", flush=True)
     with tempfile.TemporaryDirectory(prefix="swirl-students-") as folder:
         for kind, seed in itertools.product(KINDS, call.seed or [None]):
@@ -277,13 +439,26 @@ def main():
             video = Video(folder, kind, call.periods, seed)
             used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
             result, claimed, message = track(folder, video)
-            seconds = (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - used) * 1000.0 / len(video.truth)
-            row = [video.name, f"{video.varpi[0]:.3f}", "" if result is None else f"{claimed / result.rms:.2f}",
-                   *cells(result, seconds)]
+            seconds = (
+                (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - used)
+                * 1000.0
+                / len(video.truth)
+            )
+            row = [
+                video.name,
+                f"{video.varpi[0]:.3f}",
+                "" if result is None else f"{claimed / result.rms:.2f}",
+                *cells(result, seconds),
+            ]
             if call.baseline:
                 try:
                     row += cells(*track_with_baseline(video))
-                except (ValueError, IndexError, ZeroDivisionError, TypeError) as failure:  # no rim, or no discs
+                except (
+                    ValueError,
+                    IndexError,
+                    ZeroDivisionError,
+                    TypeError,
+                ) as failure:  # no rim, or no discs
                     row += cells(None, 0.0)
                     message += f"baseline: {failure}\n"
             print("| " + " | ".join(row) + " |", flush=True)

@@ -43,8 +43,10 @@ def numbers(rows, column):
 
 
 def tables(found):
-    lines = ["| scene | N | engine | baseline | baseline rate | ratio | invalidated | rebuilt |",
-             "|---|---|---|---|---|---|---|---|"]
+    lines = [
+        "| scene | N | engine | baseline | baseline rate | ratio | invalidated | rebuilt |",
+        "|---|---|---|---|---|---|---|---|",
+    ]
     several = len({width for _, _, width in found}) > 1
     for (scene, n, width), rows in found.items():
         rates, baselines = numbers(rows, "rate"), numbers(rows, "baseline_rate")
@@ -54,13 +56,16 @@ def tables(found):
             f"| {' or '.join(sorted({row['baseline'] for row in rows if row['baseline']}))} "
             f"| {middle(baselines, 1e6) if baselines else ''} | {middle(ratios) if ratios else ''} "
             f"| {number(statistics.median(numbers(rows, 'invalidated_per_event')))} "
-            f"| {number(statistics.median(numbers(rows, 'list_rebuilds_per_event')))} |")
+            f"| {number(statistics.median(numbers(rows, 'list_rebuilds_per_event')))} |"
+        )
     lines += ["", "| compared | N | by | value |", "|---|---|---|---|"]
     for (scene, n, width), rows in found.items():
         values = numbers(rows, "compared")
         if values:
-            lines.append(f"| {scene}{', ' + width if several else ''} | {discs(n)} "
-                         f"| {rows[0]['comparison']} | {middle(values)} |")
+            lines.append(
+                f"| {scene}{', ' + width if several else ''} | {discs(n)} "
+                f"| {rows[0]['comparison']} | {middle(values)} |"
+            )
     return lines
 
 
@@ -70,8 +75,10 @@ def main(files):
         return 0 if files else 2
     found = read(files)
     first = next(iter(found.values()))[0]
-    print(f"{first['machine']}, swirl {first['version']}, `{first['command']}`"
-          f"{f', {len(files)} runs' if len(files) > 1 else ''}\n")
+    print(
+        f"{first['machine']}, swirl {first['version']}, `{first['command']}`"
+        f"{f', {len(files)} runs' if len(files) > 1 else ''}\n"
+    )
     print("\n".join(tables(found)))
     return 0
 

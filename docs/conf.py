@@ -1,5 +1,5 @@
-"""Sphinx configuration of the documentation. The source folder is the root of the tree, so that the links of the
-pages to source files work unchanged:
+"""Sphinx configuration of the documentation. The source folder is the root of the tree, so that the
+links of the pages to source files work unchanged:
 
     sphinx-build -c docs . OUT
 
@@ -18,8 +18,16 @@ from sphinx.util.nodes import make_refnode
 project = "swirl"
 root_doc = "docs/index"
 extensions = ["myst_parser"]
-include_patterns = ["*.md", "docs/*.md", "docs/**/*.md", "bench/*.md", "bench/**/*.md", "src/**/README.md",
-                    "examples/*.md", "tests/**/README.md"]
+include_patterns = [
+    "*.md",
+    "docs/*.md",
+    "docs/**/*.md",
+    "bench/*.md",
+    "bench/**/*.md",
+    "src/**/README.md",
+    "examples/*.md",
+    "tests/**/README.md",
+]
 exclude_patterns = ["build", "out", "web", ".git", ".github", "bindings", "**/node_modules"]
 # A heading of the third level directly below the first is no error.
 suppress_warnings = ["myst.header"]
@@ -44,8 +52,9 @@ PROJECT = ["/README", "/gallery", "/examples/index"]
 
 
 def add_contents(app, docname, source):
-    """Appends the tables of contents to the home page: its own lists, in their order. Pages in src, bench and tests
-    are in none. The pages themselves have no Sphinx directives, since they are also read as plain Markdown."""
+    """Appends the tables of contents to the home page: its own lists, in their order. Pages in src,
+    bench and tests are in none. The pages themselves have no Sphinx directives, since they are also
+    read as plain Markdown."""
     if docname.startswith(("src/", "bench/", "tests/", "track/")):
         source[0] = f"---\norphan: true\n---\n{source[0]}"
     if docname != root_doc:
@@ -53,10 +62,16 @@ def add_contents(app, docname, source):
     for section in re.findall(r"^## (.*\n(?:.*\n)*?)(?=^## |\Z)", f"{source[0]}\n", re.M):
         caption, _, text = section.partition("\n")
         pages = re.findall(r"^- .*?\]\((.*?)\.md\)", text, re.M)
-        pages += [name for name in PROJECT if caption == "Project" and os.path.exists(f"{app.srcdir}{name}.md")]
+        pages += [
+            name
+            for name in PROJECT
+            if caption == "Project" and os.path.exists(f"{app.srcdir}{name}.md")
+        ]
         if pages:
             listed = "\n".join(f"/{page[3:]}" if page.startswith("../") else page for page in pages)
-            source[0] += f"\n```{{toctree}}\n:caption: {caption.split(':')[0]}\n:hidden:\n\n{listed}\n```\n"
+            source[
+                0
+            ] += f"\n```{{toctree}}\n:caption: {caption.split(':')[0]}\n:hidden:\n\n{listed}\n```\n"
 
 
 SUBSCRIPT = re.compile(r"(?<!\w)([A-Za-zϖμωφθτρηΓσ])_([A-Za-zθ]{1,3})(?!\w)")
@@ -65,8 +80,12 @@ SUBSCRIPT = re.compile(r"(?<!\w)([A-Za-zϖμωφθτρηΓσ])_([A-Za-zθ]{1,3})
 def set_subscripts(app, doctree, docname):
     """N_c, which plain Markdown shows as it is, with a subscript."""
     for text in list(doctree.findall(nodes.Text)):
-        if any(isinstance(above, (nodes.literal, nodes.literal_block, nodes.raw, nodes.math, nodes.math_block))
-               for above in (text.parent, text.parent.parent)) or not SUBSCRIPT.search(text):
+        if any(
+            isinstance(
+                above, (nodes.literal, nodes.literal_block, nodes.raw, nodes.math, nodes.math_block)
+            )
+            for above in (text.parent, text.parent.parent)
+        ) or not SUBSCRIPT.search(text):
             continue
         parts = SUBSCRIPT.split(text)
         made = [nodes.Text(parts[0])]
@@ -78,18 +97,25 @@ def set_subscripts(app, doctree, docname):
 def describe_page(app, pagename, templatename, context, doctree):
     """Title, text and picture for pages that link to this one (Open Graph)."""
     first = doctree and next((each.astext() for each in doctree.findall(nodes.paragraph)), "")
-    tags = {"title": f"{re.sub('<[^>]+>', '', context.get('title') or project)} – swirl",
-            "description": " ".join((first or "Why a few marbles in a swirled dish reverse.").split())[:300],
-            "type": "website"}
+    tags = {
+        "title": f"{re.sub('<[^>]+>', '', context.get('title') or project)} – swirl",
+        "description": " ".join((first or "Why a few marbles in a swirled dish reverse.").split())[
+            :300
+        ],
+        "type": "website",
+    }
     if ADDRESS:
         tags["image"] = f"{ADDRESS}preview.png"
     context["metatags"] = context.get("metatags", "") + "".join(
-        f'<meta property="og:{name}" content="{escape(text)}" />' for name, text in tags.items())
+        f'<meta property="og:{name}" content="{escape(text)}" />' for name, text in tags.items()
+    )
 
 
 def resolve_folder(app, env, node, contnode):
     """A link to a folder leads to its page, if it has one; otherwise its text remains."""
-    target = posixpath.normpath(posixpath.join(posixpath.dirname(node.get("refdoc", "")), node["reftarget"]))
+    target = posixpath.normpath(
+        posixpath.join(posixpath.dirname(node.get("refdoc", "")), node["reftarget"])
+    )
     if not os.path.isdir(os.path.join(app.srcdir, target)):
         return None
     for page in (f"{target}/index", f"{target}/README"):
@@ -98,8 +124,8 @@ def resolve_folder(app, env, node, contnode):
     return contnode
 
 
-# The size of the text, in the units of a formula's lengths. The formula's letters are larger: their small letters
-# have the height of those of the text.
+# The size of the text, in the units of a formula's lengths. The formula's letters are larger: their
+# small letters have the height of those of the text.
 SIZE = 10
 
 
@@ -108,19 +134,29 @@ def math_svg(formula):
     from matplotlib import rc_context
     from matplotlib.font_manager import FontProperties
     from matplotlib.mathtext import math_to_image
+
     formula = " ".join(formula.split())
     # mathtext needs braces for the arguments of fonts and fractions.
     formula = re.sub(r"\\(mathbf|mathrm|mathcal)\s+([A-Za-z])", r"\\\1{\2}", formula)
-    formula = re.sub(r"\\text\{([^}]*)\}", lambda text: f"\\mathrm{{{text[1]}}}".replace(" ", r"\ "), formula)
+    formula = re.sub(
+        r"\\text\{([^}]*)\}", lambda text: f"\\mathrm{{{text[1]}}}".replace(" ", r"\ "), formula
+    )
     formula = re.sub(r"\\(ge|le)(?![a-z])", r"\\\1q", formula)  # names that matplotlib has
     image = BytesIO()
     with rc_context({"svg.fonttype": "path", "mathtext.fontset": "cm", "svg.hashsalt": "swirl"}):
-        depth = math_to_image(f"${formula}$", image, FontProperties(size=1.2 * SIZE), dpi=72, format="svg")
+        depth = math_to_image(
+            f"${formula}$", image, FontProperties(size=1.2 * SIZE), dpi=72, format="svg"
+        )
     # Lengths relative to the size of the text, and the formula's base line on that of the text.
-    text = re.sub(r'(width|height)="([\d.]+)pt"', lambda length: f'{length[1]}="{float(length[2]) / SIZE:.3f}em"',
-                  image.getvalue().decode())
-    return (f'<span role="img" aria-label="{escape(formula)}" class="formula" style="vertical-align: '
-            f'{-depth / SIZE:.3f}em">{text[text.index("<svg"):]}</span>')
+    text = re.sub(
+        r'(width|height)="([\d.]+)pt"',
+        lambda length: f'{length[1]}="{float(length[2]) / SIZE:.3f}em"',
+        image.getvalue().decode(),
+    )
+    return (
+        f'<span role="img" aria-label="{escape(formula)}" class="formula" style="vertical-align: '
+        f'{-depth / SIZE:.3f}em">{text[text.index("<svg"):]}</span>'
+    )
 
 
 def visit_math(self, node):
@@ -129,13 +165,15 @@ def visit_math(self, node):
 
 
 def visit_math_block(self, node):
-    self.body.append(f'<div class="formula-block">{math_svg(node.astext().replace("frac{", "dfrac{"))}</div>')
+    self.body.append(
+        f'<div class="formula-block">{math_svg(node.astext().replace("frac{", "dfrac{"))}</div>'
+    )
     raise nodes.SkipNode
 
 
 def bundle_theme(app, exception):
-    """Makes Debian's furo work from file://. Its script imports a second one, and its style sheet one of the web
-    server; both are inserted here."""
+    """Makes Debian's furo work from file://. Its script imports a second one, and its style sheet
+    one of the web server; both are inserted here."""
     if exception:
         return
     style = os.path.join(app.outdir, "_static", "styles", "furo.css")
@@ -152,10 +190,15 @@ def bundle_theme(app, exception):
             return
         with open(os.path.join(scripts, name), encoding="utf-8") as opened:
             parts.append(re.sub(r"^import Gumshoe from .*$", "", opened.read(), flags=re.M))
-    # A heading "Exports" defines a global of that name in the browser, which this test takes for Node.js.
+    # A heading "Exports" defines a global of that name in the browser, which this test takes for
+    # Node.js.
     parts[0] = parts[0].replace('typeof exports === "object"', "false")
     # A page without subheadings has no last item.
-    parts[0] = re.sub(r"(var useLastItem = function \(item, settings\) \{)", r"\1 if (!item) return false;", parts[0])
+    parts[0] = re.sub(
+        r"(var useLastItem = function \(item, settings\) \{)",
+        r"\1 if (!item) return false;",
+        parts[0],
+    )
     with open(os.path.join(scripts, "furo.js"), "w", encoding="utf-8") as opened:
         opened.write("\n".join(parts))
     os.remove(os.path.join(scripts, "gumshoe-patched.js"))

@@ -18,13 +18,18 @@ SCENES = (
 
 def hash_of_program(command, scene):
     options = [word for name, value in scene.items() for word in (f"--{name}", str(value))]
-    done = subprocess.run([*command, "run", *options, "--quiet", "--json", "-"], check=True,
-                          stdout=subprocess.PIPE, text=True)
+    done = subprocess.run(
+        [*command, "run", *options, "--quiet", "--json", "-"],
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
     return json.loads(done.stdout)["state_hash"]
 
 
 def hash_of_module(scene):
     import swirl
+
     return swirl.run(**scene).state_hash
 
 
@@ -36,8 +41,10 @@ def main():
             found["module"] = hash_of_module(scene)
         for what, state_hash in found.items():
             if state_hash != expected:
-                sys.exit(f"error: the {what} gives state hash {state_hash} for {scene}; expected "
-                         f"{expected}.")
+                sys.exit(
+                    f"error: the {what} gives state hash {state_hash} for {scene}; expected "
+                    f"{expected}."
+                )
     print(f"{len(SCENES)} scenes have the expected state hashes.")
 
 

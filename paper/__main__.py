@@ -12,6 +12,7 @@ def main():
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
     import command
     import console
+
     console.stop_on_signals()
     try:
         return command.main(call)
@@ -20,11 +21,12 @@ def main():
     except KeyboardInterrupt:
         return console.report(console.Problem("stopped before the end.", console.INTERRUPTED))
     except ImportError as missing:
-        return console.report(f"a Python module is missing: {missing}.\n"
-                              "hint: ./swirl paper installs and builds what is missing.")
+        return console.report(
+            f"a Python module is missing: {missing}.\n"
+            "hint: ./swirl paper installs and builds what is missing."
+        )
     except OSError as error:
         return console.report(f"'{error.filename}': {error.strerror}." if error.filename else error)
-
 
 
 if __name__ == "__main__":

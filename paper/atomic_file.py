@@ -1,6 +1,7 @@
-"""Atomic writes, as those of the program (src/swirl/io/atomic_file.hpp). Content goes to a locked temporary
-file next to the target, is synchronised to the disk, and is then renamed. A killed process leaves a temporary
-file without a lock; the next process that writes the target removes it."""
+"""Atomic writes, as those of the program (src/swirl/io/atomic_file.hpp). Content goes to a locked
+temporary file next to the target, is synchronised to the disk, and is then renamed. A killed
+process leaves a temporary file without a lock; the next process that writes the target removes
+it."""
 
 import fcntl
 import hashlib
@@ -12,7 +13,9 @@ import sys
 
 import optional_file
 
-_left = {}  # by folder: the temporary files that were there when this process first wrote a file into it
+_left = (
+    {}
+)  # by folder: the temporary files that were there when this process first wrote a file into it
 
 
 def write(path, content):
@@ -39,7 +42,8 @@ def store(path, content):
 
 
 def stored(path):
-    """What an earlier call has stored; None if there is nothing, or if it was changed. Raises OSError."""
+    """What an earlier call has stored; None if there is nothing, or if it was changed. Raises
+    OSError."""
     try:
         found = json.loads(optional_file.read(path) or "")
         return found["content"] if found["checksum"] == checksum_of(found["content"]) else None
@@ -52,12 +56,18 @@ def checksum_of(content):
 
 
 def remove_leftovers_of(path):
-    """Removes the temporary files of this target that killed processes left. Lists each folder once."""
+    """Removes the temporary files of this target that killed processes left. Lists each folder
+    once."""
     folder, name = os.path.split(os.path.abspath(path))
     if folder not in _left:
-        _left[folder] = [found for found in optional_file.names_in(folder)
-                         if re.search(r"\.[0-9a-f]{16}\.partial$", found)]
-    for found in [found for found in _left[folder] if found[:-len(".0123456789abcdef.partial")] == name]:
+        _left[folder] = [
+            found
+            for found in optional_file.names_in(folder)
+            if re.search(r"\.[0-9a-f]{16}\.partial$", found)
+        ]
+    for found in [
+        found for found in _left[folder] if found[: -len(".0123456789abcdef.partial")] == name
+    ]:
         _left[folder].remove(found)
         try:
             with open(os.path.join(folder, found), "rb") as file:

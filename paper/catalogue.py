@@ -16,12 +16,21 @@ ENTRY = re.compile(r'Figure\(\s*"([^"]+)",\s*"([^"]+)",\s*"([^"]+)"')
 # Pinning and depinning have no figure in the paper; they follow Figure 3.
 SORTED_AS = {"pinning": "3c"}
 # The order of the report within a group. A figure that is not listed here comes last.
-ORDER = ("ball states times 5b-start 5b-steady averages friction inertia restitution tangential polygon map transient energy "
-         "condensation spheres spheres_friction spheres_few settling spheres_ingredients spheres_ingredients_rough size amplitude "
-         "critical hysteresis lifetimes coexistence turns cause torque gears gear_order contacts material_inertia material_friction "
-         "material_tangential fields closure cooling scherer").split()
-GROUPS = {"paper": "the figures of the paper", "beyond": "parameters, averages and times that the paper does not show",
-          "rolling": "spheres that roll on the floor", "chapters": "questions that the paper leaves open"}
+ORDER = (
+    "ball states times 5b-start 5b-steady averages friction inertia restitution tangential polygon "
+    "map transient energy "
+    "condensation spheres spheres_friction spheres_few settling spheres_ingredients "
+    "spheres_ingredients_rough size amplitude "
+    "critical hysteresis lifetimes coexistence turns cause torque gears gear_order contacts "
+    "material_inertia material_friction "
+    "material_tangential fields closure cooling scherer"
+).split()
+GROUPS = {
+    "paper": "the figures of the paper",
+    "beyond": "parameters, averages and times that the paper does not show",
+    "rolling": "spheres that roll on the floor",
+    "chapters": "questions that the paper leaves open",
+}
 
 
 def entries():
@@ -32,9 +41,15 @@ def entries():
             with open(file, encoding="utf-8") as text:
                 module = f"{folder}.{os.path.basename(file)[:-len('.py')]}"
                 found += [(*entry, module) for entry in ENTRY.findall(text.read())]
-    return sorted(found, key=lambda entry: (
-        list(GROUPS).index(entry[1]), SORTED_AS.get(entry[0], entry[0]) if entry[1] == "paper" else "",
-        ORDER.index(entry[0]) if entry[0] in ORDER else len(ORDER), entry[0]))
+    return sorted(
+        found,
+        key=lambda entry: (
+            list(GROUPS).index(entry[1]),
+            SORTED_AS.get(entry[0], entry[0]) if entry[1] == "paper" else "",
+            ORDER.index(entry[0]) if entry[0] in ORDER else len(ORDER),
+            entry[0],
+        ),
+    )
 
 
 def drawing(name):
@@ -49,8 +64,11 @@ def check(names):
     for name in names:
         if name not in known:
             near = difflib.get_close_matches(name, known, 1)
-            raise Problem(f"--figure is '{name}', but it must be one of: {', '.join(known)}." +
-                          (f"\nhint: did you mean '{near[0]}'?" if near else ""), 2)
+            raise Problem(
+                f"--figure is '{name}', but it must be one of: {', '.join(known)}."
+                + (f"\nhint: did you mean '{near[0]}'?" if near else ""),
+                2,
+            )
 
 
 def named(names):
@@ -61,14 +79,18 @@ def named(names):
 
 
 def loaded(name, group, description, module):
-    """The figure. If its file cannot be imported, one whose points and drawing raise the error: it fails alone."""
+    """The figure. If its file cannot be imported, one whose points and drawing raise the error: it
+    fails alone."""
     try:
-        return next(figure for figure in importlib.import_module(module).FIGURES if figure.name == name)
+        return next(
+            figure for figure in importlib.import_module(module).FIGURES if figure.name == name
+        )
     except Exception as error:
         from figure import Figure
 
         def fail(*_, error=error):
             raise error
+
         return Figure(name, group, description, fail, fail, fail)
 
 

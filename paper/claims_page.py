@@ -1,9 +1,13 @@
-"""Writes the claims from the tables of a full study: the counts of verdicts in docs/results/paper.md, the page
-docs/results/claims.md, and docs/data/claims.csv with every number that was found.
+"""Writes the claims from the tables of a full study: the counts of verdicts in
+docs/results/paper.md, the page docs/results/claims.md, and docs/data/claims.csv with every number
+that was found.
 
     /usr/bin/python3 paper/claims_page.py out docs/results/paper.md
-    /usr/bin/python3 paper/claims_page.py out docs/results/paper.md 13 16      these claims only, if out has no other tables
-    /usr/bin/python3 paper/claims_page.py - docs/results/paper.md              both pages again, from claims.csv alone
+    /usr/bin/python3 paper/claims_page.py out docs/results/paper.md 13 16
+    /usr/bin/python3 paper/claims_page.py - docs/results/paper.md
+
+The second call writes these claims only, if out has no other tables. The third one writes both
+pages again, from claims.csv alone.
 """
 
 import csv
@@ -17,7 +21,16 @@ from claims import CLAIMS, QUOTES
 from claims.wording import headline
 from report import ORDER, judge
 
-COLUMNS = ("claim", "statement", "judged_on", "figure", "verdict", "at_half_the_sizes", "at_twice_the_sizes", "result")
+COLUMNS = (
+    "claim",
+    "statement",
+    "judged_on",
+    "figure",
+    "verdict",
+    "at_half_the_sizes",
+    "at_twice_the_sizes",
+    "result",
+)
 PAGE = """# The paper's claims
 
 For physicists who know the paper: its 60 statements with our verdict, the number behind it, and the figure whose runs decide.
@@ -35,15 +48,36 @@ all numbers, and the verdicts for half and twice the required sizes.
 
 
 def row_of(number, judged):
-    return dict(zip(COLUMNS, (str(number), judged.claim.statement, judged.claim.on, judged.claim.figure or "", judged.verdict,
-                              *(judged.scaled.get(factor, judged.verdict) for factor in (0.5, 2)), judged.found)))
+    return dict(
+        zip(
+            COLUMNS,
+            (
+                str(number),
+                judged.claim.statement,
+                judged.claim.on,
+                judged.claim.figure or "",
+                judged.verdict,
+                *(judged.scaled.get(factor, judged.verdict) for factor in (0.5, 2)),
+                judged.found,
+            ),
+        )
+    )
 
 
 def table_of(rows):
     """How many claims have each verdict, and which; the numbers are those of claims.csv."""
-    numbers = {verdict: [row["claim"] for row in rows if row["verdict"] == verdict] for verdict in ORDER}
-    return ["| verdict | claims | their numbers |", "|---|---|---|",
-            *(f"| {verdict} | {len(found)} | {', '.join(found)} |" for verdict, found in numbers.items() if found)]
+    numbers = {
+        verdict: [row["claim"] for row in rows if row["verdict"] == verdict] for verdict in ORDER
+    }
+    return [
+        "| verdict | claims | their numbers |",
+        "|---|---|---|",
+        *(
+            f"| {verdict} | {len(found)} | {', '.join(found)} |"
+            for verdict, found in numbers.items()
+            if found
+        ),
+    ]
 
 
 def csv_of(rows):
@@ -57,16 +91,27 @@ def csv_of(rows):
 
 def page_of(rows):
     """docs/results/claims.md."""
+
     def cell(text):
         return text.replace("|", "\\|")
-    lines = [f"| {row['claim']} | “{cell(quote)}”<br>{cell(row['statement'])} | {row['verdict']} | {cell(headline(row['result']))} | "
-             + (f"`{row['figure']}` |" if row["figure"] else "|") for row, quote in zip(rows, QUOTES)]
+
+    lines = [
+        f"| {row['claim']} | “{cell(quote)}”<br>{cell(row['statement'])} | {row['verdict']} | "
+        f"{cell(headline(row['result']))} | " + (f"`{row['figure']}` |" if row["figure"] else "|")
+        for row, quote in zip(rows, QUOTES)
+    ]
     return PAGE + "\n".join(lines) + "\n"
 
 
 def written(page, rows):
     """The page with a new table."""
-    return re.sub(r"^\| verdict \| claims .*\n(?:\|.*\n)+", lambda _: "\n".join(table_of(rows)) + "\n", page, count=1, flags=re.M)
+    return re.sub(
+        r"^\| verdict \| claims .*\n(?:\|.*\n)+",
+        lambda _: "\n".join(table_of(rows)) + "\n",
+        page,
+        count=1,
+        flags=re.M,
+    )
 
 
 def stored_rows(file):
@@ -75,21 +120,29 @@ def stored_rows(file):
 
 
 def rows_from(folder, file, numbers):
-    """The rows of all claims: those with these numbers, or all, from the tables in the folder; others as they are stored."""
+    """The rows of all claims: those with these numbers, or all, from the tables in the folder;
+    others as they are stored."""
     if folder != "-" and not numbers:
         return [row_of(k, judged) for k, judged in enumerate(judge(folder), 1)]
     stored = stored_rows(file)
     judged = judge(folder) if numbers else [None] * len(CLAIMS)
-    return [row_of(k, judged[k - 1]) if k in numbers else {**stored[claim.statement], "figure": claim.figure}
-            for k, claim in enumerate(CLAIMS, 1)]
+    return [
+        row_of(k, judged[k - 1])
+        if k in numbers
+        else {**stored[claim.statement], "figure": claim.figure}
+        for k, claim in enumerate(CLAIMS, 1)
+    ]
 
 
 def main():
     if len(sys.argv) < 3:
-        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER PAGE [CLAIM...]\n"
-              "Writes the table of verdicts in PAGE, claims.md next to it and ../data/claims.csv, from the tables in FOLDER. With "
-              "numbers of claims, only these are judged again. FOLDER - uses what claims.csv has",
-              file=sys.stderr)
+        print(
+            f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER PAGE [CLAIM...]\n"
+            "Writes the table of verdicts in PAGE, claims.md next to it and ../data/claims.csv, "
+            "from the tables in FOLDER. With "
+            "numbers of claims, only these are judged again. FOLDER - uses what claims.csv has",
+            file=sys.stderr,
+        )
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     folder, page, numbers = sys.argv[1], sys.argv[2], set(map(int, sys.argv[3:]))
     file = os.path.join(os.path.dirname(page), "..", "data", "claims.csv")

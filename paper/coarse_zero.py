@@ -1,16 +1,19 @@
-"""The zero of a curve whose points are several N apart. swirl.zero_crossing() decides whether there is one, and
-reports no N for such curves, because the curve between the points is unknown. Here it is interpolated.
+"""The zero of a curve whose points are several N apart. swirl.zero_crossing() decides whether there
+is one, and reports no N for such curves, because the curve between the points is unknown. Here it
+is interpolated.
 
-Between the points k and k + 1, of opposite signs, a parabola through these two and a third point has exactly one zero.
-There are two such parabolas, one with point k − 1 and one with point k + 2. Their errors at x are f‴/6 times
-(x − x_k)(x − x_{k+1})(x − x_third), whose last factor is positive for one and negative for the other. So the zero of a
-smooth curve whose third derivative keeps its sign lies between the zeros of the two parabolas. N_c is their mean, and
-half of their distance is the error of the interpolation. At the end of a curve there is one parabola; then the distance
-from the zero of the straight line is the error. Two points alone have only the straight line. Its zero may be anywhere
-between them: the error is a uniform distribution's, step/√12.
+Between the points k and k + 1, of opposite signs, a parabola through these two and a third point
+has exactly one zero. There are two such parabolas, one with point k − 1 and one with point k + 2.
+Their errors at x are f‴/6 times (x − x_k)(x − x_{k+1})(x − x_third), whose last factor is positive
+for one and negative for the other. So the zero of a smooth curve whose third derivative keeps its
+sign lies between the zeros of the two parabolas. N_c is their mean, and half of their distance is
+the error of the interpolation. At the end of a curve there is one parabola; then the distance from
+the zero of the straight line is the error. Two points alone have only the straight line. Its zero
+may be anywhere between them: the error is a uniform distribution's, step/√12.
 
-The statistical error follows from the errors of the two points. A curve that jumps between two points, from one state to
-another, is not smooth; then the parabolas differ much, but do not bound the zero.
+The statistical error follows from the errors of the two points. A curve that jumps between two
+points, from one state to another, is not smooth; then the parabolas differ much, but do not bound
+the zero.
 
 A point is (N, mean, error), and a curve a list of points.
 """
@@ -26,7 +29,8 @@ from engine import swirl
 
 
 def rise_through(x, y, level):
-    """The first x at which straight lines between the points rise through the level; NaN if they do not."""
+    """The first x at which straight lines between the points rise through the level; NaN if they do
+    not."""
     for a, b, c, d in zip(x, x[1:], y, y[1:]):
         if c <= level < d:
             return a + (b - a) * (level - c) / (d - c)
@@ -52,7 +56,9 @@ def zero_of_parabola(a, b, c):
     """The zero between a and b, of opposite signs, of the parabola through a, b and c."""
     slope = (b[1] - a[1]) / (b[0] - a[0])
     curvature = ((c[1] - b[1]) / (c[0] - b[0]) - slope) / (c[0] - a[0])
-    return scipy.optimize.brentq(lambda x: a[1] + (x - a[0]) * (slope + (x - b[0]) * curvature), a[0], b[0], xtol=1e-14)
+    return scipy.optimize.brentq(
+        lambda x: a[1] + (x - a[0]) * (slope + (x - b[0]) * curvature), a[0], b[0], xtol=1e-14
+    )
 
 
 def zero_of_curve(curve, k):
@@ -76,15 +82,19 @@ def changes_of_sign(curve):
 
 
 def middle_zero(curve, change):
-    """The k for which the zero is between the points k and k + 1, inside the bracket of the change; the middle one of
-    several."""
-    zeros = [k for k, (a, b) in enumerate(zip(curve, curve[1:]))
-             if a[0] >= change["before"] and b[0] <= change["after"] and (a[1] < 0) != (b[1] < 0)]
+    """The k for which the zero is between the points k and k + 1, inside the bracket of the change;
+    the middle one of several."""
+    zeros = [
+        k
+        for k, (a, b) in enumerate(zip(curve, curve[1:]))
+        if a[0] >= change["before"] and b[0] <= change["after"] and (a[1] < 0) != (b[1] < 0)
+    ]
     return zeros[len(zeros) // 2]
 
 
 def last_zero(curve):
-    """(CurveZero, True if the curve falls there) of the last certain change of sign; (None, False) without one."""
+    """(CurveZero, True if the curve falls there) of the last certain change of sign; (None, False)
+    without one."""
     changes = changes_of_sign(curve)
     if not changes:
         return None, False
@@ -92,8 +102,9 @@ def last_zero(curve):
 
 
 def crossing_of_curve(curve):
-    """(N_c, error) of the last certain change to counterrotation; None without one. Where the points of its bracket are
-    neighbours, N_c is that of all figures. In a coarse curve the error contains that of the interpolation."""
+    """(N_c, error) of the last certain change to counterrotation; None without one. Where the
+    points of its bracket are neighbours, N_c is that of all figures. In a coarse curve the error
+    contains that of the interpolation."""
     if not curve:
         return None
     found = swirl.zero_crossing(*map(list, zip(*curve)))
@@ -109,5 +120,7 @@ def crossing_of_curve(curve):
 def measured_curve(points, quantity):
     """A measured quantity, such as "torque.transfer", against N."""
     values = [at(p.result, "measured", *quantity.split(".")) for p in points]
-    return [(p.cells["discs"], number(at(value, "mean")), number(at(value, "error")))
-            for p, value in zip(points, values)]
+    return [
+        (p.cells["discs"], number(at(value, "mean")), number(at(value, "error")))
+        for p, value in zip(points, values)
+    ]

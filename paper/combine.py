@@ -1,11 +1,13 @@
 """Combines the runs of a point, which differ only in their seeds, into one result of the same form.
 
-Every average becomes the mean over the runs, with the error within and between them (src/swirl/statistics/replicates.hpp,
-which also decides which runs are too short to count, and their weights). Angles are averaged as directions. Counts of
-visits add up; lengths become means. Failed runs are not averaged.
+Every average becomes the mean over the runs, with the error within and between them
+(src/swirl/statistics/replicates.hpp, which also decides which runs are too short to count, and
+their weights). Angles are averaged as directions. Counts of visits add up; lengths become means.
+Failed runs are not averaged.
 
-"seeds" has the number of runs, and how many of them were averaged, steady, drifting, jumping, switching, too short for
-the test, too short to average, and failed; also the scatter of ϖ by event in units of the runs' own errors.
+"seeds" has the number of runs, and how many of them were averaged, steady, drifting, jumping,
+switching, too short for the test, too short to average, and failed; also the scatter of ϖ by event
+in units of the runs' own errors.
 """
 
 import math
@@ -14,7 +16,17 @@ import numpy as np
 from engine import swirl
 
 RATES = ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time")
-COUNTS = ("runs", "averaged", "steady", "drifting", "jumping", "switching", "too_short", "too_short_to_average", "failed")
+COUNTS = (
+    "runs",
+    "averaged",
+    "steady",
+    "drifting",
+    "jumping",
+    "switching",
+    "too_short",
+    "too_short_to_average",
+    "failed",
+)
 
 
 def at(result, *path):
@@ -28,24 +40,40 @@ def at(result, *path):
 
 def number(value):
     """A number; NaN for anything else."""
-    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else math.nan
+    return (
+        float(value)
+        if isinstance(value, (int, float)) and not isinstance(value, bool)
+        else math.nan
+    )
 
 
 def over_seeds(means, errors=None, weights=(), effective=None, directions=False):
-    """Mean, error, effective samples, scatter and disagreement over the runs, of one quantity or of rows of several:
-    arrays [row, run]. Without errors of the runs, the error is that between them."""
+    """Mean, error, effective samples, scatter and disagreement over the runs, of one quantity or of
+    rows of several: arrays [row, run]. Without errors of the runs, the error is that between
+    them."""
     means = np.asarray(means, dtype=float)
     rows = np.atleast_2d(means)
-    errors = np.full(rows.shape, np.nan) if errors is None else np.atleast_2d(np.asarray(errors, dtype=float))
-    effective = np.zeros(rows.shape) if effective is None else np.atleast_2d(np.asarray(effective, dtype=float))
+    errors = (
+        np.full(rows.shape, np.nan)
+        if errors is None
+        else np.atleast_2d(np.asarray(errors, dtype=float))
+    )
+    effective = (
+        np.zeros(rows.shape)
+        if effective is None
+        else np.atleast_2d(np.asarray(effective, dtype=float))
+    )
     found = swirl._engine.over_replicates(rows, errors, effective, list(weights), directions)
     return tuple(column[0] for column in found) if means.ndim == 1 else found
 
 
 def means(runs, names):
     """{name: mean over the runs, name_error: its error} of quantities of single runs."""
-    return {f"{name}{end}": value for name in names
-            for end, value in zip(("", "_error"), over_seeds([number(run[name]) for run in runs]))}
+    return {
+        f"{name}{end}": value
+        for name in names
+        for end, value in zip(("", "_error"), over_seeds([number(run[name]) for run in runs]))
+    }
 
 
 def failed(result):
@@ -53,7 +81,7 @@ def failed(result):
 
 
 def steadiness(result):
-    """"steady", "drifting", "jumping", "switching", "too short to tell", or "failed"."""
+    """ "steady", "drifting", "jumping", "switching", "too short to tell", or "failed"."""
     return at(result, "steady_state", "verdict") or "failed"
 
 
@@ -64,8 +92,9 @@ def min_periods():
 
 def too_short_to_average(run):
     """True if a run ended before its warm-up, or soon after it."""
-    return ((number(at(run, "warmup", "periods")) == 0 and at(run, "config", "warmup") != 0)
-            or not number(at(run, "rotation", "mean_by_event", "blocks")) >= min_periods())
+    return (
+        number(at(run, "warmup", "periods")) == 0 and at(run, "config", "warmup") != 0
+    ) or not number(at(run, "rotation", "mean_by_event", "blocks")) >= min_periods()
 
 
 def is_average(node):
@@ -73,10 +102,20 @@ def is_average(node):
 
 
 def average(nodes, weights, direction=False):
-    columns = [[number(node.get(name)) for node in nodes] for name in ("mean", "error", "effective_samples")]
+    columns = [
+        [number(node.get(name)) for node in nodes]
+        for name in ("mean", "error", "effective_samples")
+    ]
     mean, error, effective, scatter, disagree = over_seeds(
-        columns[0], columns[1], weights, np.nan_to_num(columns[2]), direction)
-    found = {"mean": mean, "error": error, "effective_samples": effective, "scatter": scatter, "disagree": bool(disagree)}
+        columns[0], columns[1], weights, np.nan_to_num(columns[2]), direction
+    )
+    found = {
+        "mean": mean,
+        "error": error,
+        "effective_samples": effective,
+        "scatter": scatter,
+        "disagree": bool(disagree),
+    }
     for name in nodes[0]:  # further numbers have no errors: counts add up, others are averaged
         if name not in found and name != "blocks":
             values = [number(node.get(name)) for node in nodes]
@@ -87,7 +126,13 @@ def average(nodes, weights, direction=False):
 def mean_cell(cells):
     """The common value of all runs, bitwise, or their mean."""
     cells = [cell for cell in cells if not math.isnan(cell)]
-    return math.nan if not cells else cells[0] if cells.count(cells[0]) == len(cells) else sum(cells) / len(cells)
+    return (
+        math.nan
+        if not cells
+        else cells[0]
+        if cells.count(cells[0]) == len(cells)
+        else sum(cells) / len(cells)
+    )
 
 
 def table(nodes, weights, path):
@@ -98,17 +143,23 @@ def table(nodes, weights, path):
             continue  # an error, added with its mean
         cells = np.array([[number(cell) for cell in node[name]] for node in nodes]).T
         if f"{name}_error" in nodes[0]:
-            errors = np.array([[number(cell) for cell in node[f"{name}_error"]] for node in nodes]).T
-            columns = over_seeds(cells, errors, weights, directions=swirl._engine.is_direction(f"{path}.{name}"))
+            errors = np.array(
+                [[number(cell) for cell in node[f"{name}_error"]] for node in nodes]
+            ).T
+            columns = over_seeds(
+                cells, errors, weights, directions=swirl._engine.is_direction(f"{path}.{name}")
+            )
             found[name], found[f"{name}_error"] = columns[0].tolist(), columns[1].tolist()
         else:
-            found[name] = [sum(row) if name == "visits" else mean_cell(list(row)) for row in cells.tolist()]
+            found[name] = [
+                sum(row) if name == "visits" else mean_cell(list(row)) for row in cells.tolist()
+            ]
     return found
 
 
 def measured(nodes, weights, path):
-    """Combines averages, tables and numbers, at any depth. `path`: the name in the registry of quantities, as in
-    "residence.sensitivity"."""
+    """Combines averages, tables and numbers, at any depth. `path`: the name in the registry of
+    quantities, as in "residence.sensitivity"."""
     first = nodes[0]
     if is_average(first):
         return average(nodes, weights, swirl._engine.is_direction(path))
@@ -117,18 +168,29 @@ def measured(nodes, weights, path):
     column = next(iter(first.values()), None)
     if isinstance(column, list) and column and not isinstance(column[0], (list, dict)):
         return table(nodes, weights, path)
-    return {name: measured([node[name] for node in nodes], weights, f"{path}.{name}") for name in first}
+    return {
+        name: measured([node[name] for node in nodes], weights, f"{path}.{name}") for name in first
+    }
 
 
 def common_measurements(runs, weights):
-    """{"measured": …} with the measurements of all runs. Points share runs, so some may have more than others."""
+    """{"measured": …} with the measurements of all runs. Points share runs, so some may have more
+    than others."""
     made = [run.get("measured", {}) for run in runs]
     names = [name for name in made[0] if all(name in each for each in made)]
-    return {"measured": {name: measured([each[name] for each in made], weights, name) for name in names}} if names else {}
+    return (
+        {
+            "measured": {
+                name: measured([each[name] for each in made], weights, name) for name in names
+            }
+        }
+        if names
+        else {}
+    )
 
 
 def verdict_of(seeds):
-    """"steady" if all runs are, otherwise the worst verdict."""
+    """ "steady" if all runs are, otherwise the worst verdict."""
     for verdict in ("drifting", "jumping", "switching"):
         if seeds[verdict]:
             return verdict
@@ -151,33 +213,50 @@ def count_seeds(results):
 
 
 def combined(results):
-    """The result of a point. Results that are not those of runs are returned as {"runs": those that did not fail}."""
+    """The result of a point. Results that are not those of runs are returned as {"runs": those that
+    did not fail}."""
     if not any("rotation" in r and "state_hash" in r for r in results):
         good = [r for r in results if not failed(r)]
         return {"runs": good} if good else results[0]
     seeds = count_seeds(results)
     runs = [r for r in results if number(at(r, "rotation", "mean_by_event", "blocks")) >= 1]
     if not runs:
-        reason = next((r["failed"] for r in results if failed(r)),
-                      "no run has a whole period after its warm-up, so nothing is averaged.")
-        return {"failed": reason} if any(map(failed, results)) else {"failed": reason, "seeds": seeds}
+        reason = next(
+            (r["failed"] for r in results if failed(r)),
+            "no run has a whole period after its warm-up, so nothing is averaged.",
+        )
+        return (
+            {"failed": reason} if any(map(failed, results)) else {"failed": reason, "seeds": seeds}
+        )
     if not all(map(too_short_to_average, runs)):
         runs = [r for r in runs if not too_short_to_average(r)]
     seeds["averaged"] = len(runs)
     periods = swirl._engine.replicate_weights(
-        [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs], True)
+        [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs], True
+    )
 
     def mean(*path):
         return sum(number(at(run, *path)) for run in runs) / len(runs)
 
-    rotation = {rate: average([run["rotation"][rate] for run in runs], () if rate.endswith("by_event") else periods)
-                for rate in RATES}
+    rotation = {
+        rate: average(
+            [run["rotation"][rate] for run in runs], () if rate.endswith("by_event") else periods
+        )
+        for rate in RATES
+    }
     hashes = [run["state_hash"] for run in runs]
-    return {"config": runs[0]["config"], "rotation": rotation, "periods": mean("periods"),
-            "events": {"total": int(mean("events", "total") + 0.5)},
-            "warmup": {"periods": int(mean("warmup", "periods") + 0.5)},
-            **common_measurements(runs, periods),
-            "seeds": {**seeds, "scatter": rotation["mean_by_event"]["scatter"],
-                      "disagree": rotation["mean_by_event"]["disagree"]},
-            "steady_state": {"verdict": verdict_of(seeds)},
-            "state_hash": hashes[0] if len(hashes) == 1 else swirl._engine.checksum("".join(hashes))}
+    return {
+        "config": runs[0]["config"],
+        "rotation": rotation,
+        "periods": mean("periods"),
+        "events": {"total": int(mean("events", "total") + 0.5)},
+        "warmup": {"periods": int(mean("warmup", "periods") + 0.5)},
+        **common_measurements(runs, periods),
+        "seeds": {
+            **seeds,
+            "scatter": rotation["mean_by_event"]["scatter"],
+            "disagree": rotation["mean_by_event"]["disagree"],
+        },
+        "steady_state": {"verdict": verdict_of(seeds)},
+        "state_hash": hashes[0] if len(hashes) == 1 else swirl._engine.checksum("".join(hashes)),
+    }

@@ -1,4 +1,5 @@
-"""`swirl paper`: makes figures, movies and the report. The program checks the options and passes the call as JSON:
+"""`swirl paper`: makes figures, movies and the report. The program checks the options and passes
+the call as JSON:
 
     /usr/bin/python3 paper '{"figures": ["5b"], "out": "out", "module": "build/release/python"}'
 """
@@ -22,20 +23,25 @@ def draw(job):
     try:
         catalogue.named([name])[0].draw(table)
         import style
+
         style.plt.close("all")  # this process draws several figures
     except ModuleNotFoundError as missing:
         if missing.name != "matplotlib":
             raise
-        return "the figures need matplotlib; the tables are written.\nhint: install the Debian package python3-matplotlib."
+        return (
+            "the figures need matplotlib; the tables are written.\n"
+            "hint: install the Debian package python3-matplotlib."
+        )
     except (Exception, SystemExit) as error:  # the other figures are made
         return f"its table is written, but it cannot be drawn: {study.reason_of(error)}"
     return ""
 
 
 def add_seeds_to_undecided(settings, plans):
-    """Doubles the seeds of the points on which undecided claims rest. Returns (True if there are any, the number of
-    those whose budget is used)."""
+    """Doubles the seeds of the points on which undecided claims rest. Returns (True if there are
+    any, the number of those whose budget is used)."""
     from claims import write_verdicts
+
     verdicts = write_verdicts(settings.out)
     seeds = {point.name: len(point.tasks) for plan in plans for point in plan}
     undecided = [name for name in verdicts["points_to_decide"] if name in seeds]
@@ -49,17 +55,22 @@ class Paper:
 
     def __init__(self, call):
         self.call, self.begin = call, time.monotonic()
-        self.settings = study.Settings(**{name: call[name] for name in SETTINGS if call.get(name) is not None})
+        self.settings = study.Settings(
+            **{name: call[name] for name in SETTINGS if call.get(name) is not None}
+        )
         self.figures = catalogue.named(call["figures"] or ["all"])
         self.is_all = not call["figures"] or "all" in call["figures"]
         self.made, self.counts, self.undecided, self.problems = [], {}, 0, {}
 
     def run(self, progress):
-        """Makes the runs and the tables; if all figures are made, also more seeds until the claims are decided."""
+        """Makes the runs and the tables; if all figures are made, also more seeds until the claims
+        are decided."""
         first = None
         while True:
             plans = self.plans()
-            counts = study.make([point for plan in plans for point in plan], self.settings, progress)
+            counts = study.make(
+                [point for plan in plans for point in plan], self.settings, progress
+            )
             first = first or counts
             self.counts = {**counts, "reused": first["reused"]}
             self.made = [self.finished(figure, plan) for figure, plan in zip(self.figures, plans)]
@@ -89,8 +100,14 @@ class Paper:
             findings, files = ([], []) if problem else figure.write(plan, self.settings)
         except Exception as error:  # the other figures are made
             problem = study.reason_of(error)
-        return {"name": figure.name, "description": figure.description, "caption": figure.caption,
-                "findings": findings + study.remarks(plan), "files": files, "problem": problem}
+        return {
+            "name": figure.name,
+            "description": figure.description,
+            "caption": figure.caption,
+            "findings": findings + study.remarks(plan),
+            "files": files,
+            "problem": problem,
+        }
 
     def draw(self):
         """The drawings are independent, and take a second each."""
@@ -98,26 +115,50 @@ class Paper:
         jobs = [made for made in self.made if made["name"] in drawn and made["files"]]
         if not jobs:
             return
-        with multiprocessing.Pool(min(self.settings.workers, len(jobs)), study.worker, (os.getpid(),)) as pool:
-            for made, problem in zip(jobs, pool.map(draw, [(made["name"], made["files"][0]) for made in jobs])):
+        with multiprocessing.Pool(
+            min(self.settings.workers, len(jobs)), study.worker, (os.getpid(),)
+        ) as pool:
+            for made, problem in zip(
+                jobs, pool.map(draw, [(made["name"], made["files"][0]) for made in jobs])
+            ):
                 if problem:
                     made["problem"] = problem
                 else:
-                    made["files"] += [made["files"][0].removesuffix("csv") + kind for kind in ("png", "pdf")]
+                    made["files"] += [
+                        made["files"][0].removesuffix("csv") + kind for kind in ("png", "pdf")
+                    ]
 
     def report(self):
         """Writes paper.json and the report; returns the file that a reader opens."""
         import report
+
         call, settings = self.call, self.settings
-        figures = [{**made, "files": [os.path.basename(file) for file in made["files"]]} for made in self.made]
-        about = {"command": call["command"], "version": call["version"], "build": call["build"],
-                 "quick": settings.quick, "seed": settings.seed, "events_of_a_run": settings.events_of_a_run,
-                 "defaults": call["defaults"], "seeds_of_a_point": settings.seeds,
-                 "max_seeds_of_a_point": settings.max_seeds, "undecided_points": self.undecided,
-                 "runs": self.counts["tasks"], "runs_of_earlier_calls": self.counts["reused"],
-                 "runs_that_failed": self.counts["failed"], "seconds": time.monotonic() - self.begin,
-                 "seconds_on_one_core": self.counts["task_seconds"], "figures": figures}
-        atomic_file.write(os.path.join(settings.out, "paper.json"), json.dumps(about, indent=2, ensure_ascii=False) + "\n")
+        figures = [
+            {**made, "files": [os.path.basename(file) for file in made["files"]]}
+            for made in self.made
+        ]
+        about = {
+            "command": call["command"],
+            "version": call["version"],
+            "build": call["build"],
+            "quick": settings.quick,
+            "seed": settings.seed,
+            "events_of_a_run": settings.events_of_a_run,
+            "defaults": call["defaults"],
+            "seeds_of_a_point": settings.seeds,
+            "max_seeds_of_a_point": settings.max_seeds,
+            "undecided_points": self.undecided,
+            "runs": self.counts["tasks"],
+            "runs_of_earlier_calls": self.counts["reused"],
+            "runs_that_failed": self.counts["failed"],
+            "seconds": time.monotonic() - self.begin,
+            "seconds_on_one_core": self.counts["task_seconds"],
+            "figures": figures,
+        }
+        atomic_file.write(
+            os.path.join(settings.out, "paper.json"),
+            json.dumps(about, indent=2, ensure_ascii=False) + "\n",
+        )
         report.write_all(settings.out)
         return os.path.join(settings.out, "report.html")
 
@@ -125,24 +166,34 @@ class Paper:
         """One line for each figure; everything about it if it is the only one."""
         counts, lines = self.counts, []
         for made in self.made:
-            findings = made["findings"] + ([f"This figure could not be made: {made['problem']}"] if made["problem"] else [])
+            findings = made["findings"] + (
+                [f"This figure could not be made: {made['problem']}"] if made["problem"] else []
+            )
             if len(self.made) == 1:
                 lines += findings
             else:
-                lines.append(f"{made['name']:<26}{findings[-1] if made['problem'] else made['description']}")
+                lines.append(
+                    f"{made['name']:<26}{findings[-1] if made['problem'] else made['description']}"
+                )
         if counts["failed"] and len(self.made) > 1:
             lines.append(f"{counts['failed']} runs failed; the tables and paper.json name them.")
         earlier = f", {counts['reused']} of them from an earlier call," if counts["reused"] else ""
-        lines.append(f"{counts['tasks']} runs{earlier} in {duration(time.monotonic() - self.begin)}.")
+        lines.append(
+            f"{counts['tasks']} runs{earlier} in {duration(time.monotonic() - self.begin)}."
+        )
         return lines
 
 
 def make_part(paper, part, progress):
     points = [point for plan in paper.plans() for point in plan]
     counts = study.make(points, paper.settings, progress, part)
-    print(f"{counts['tasks'] - counts['reused']} runs of part {part[0]}/{part[1]} in "
-          f"{duration(time.monotonic() - paper.begin)}; stored in '{paper.settings.out}'.")
-    problems = [f"figure {name} cannot be made: {problem}" for name, problem in paper.problems.items()]
+    print(
+        f"{counts['tasks'] - counts['reused']} runs of part {part[0]}/{part[1]} in "
+        f"{duration(time.monotonic() - paper.begin)}; stored in '{paper.settings.out}'."
+    )
+    problems = [
+        f"figure {name} cannot be made: {problem}" for name, problem in paper.problems.items()
+    ]
     if counts["failed"] or problems:
         raise Problem("; ".join([f"{counts['failed']} runs failed", *problems]) + ".")
 
@@ -151,6 +202,7 @@ def main(call):
     """Makes what the call asks for."""
     if call.get("movies"):
         import movies
+
         movies.make(call)
         if not call["figures"]:
             return
@@ -166,13 +218,20 @@ def main(call):
         lines = paper.text()
         files = [file for made in paper.made for file in made["files"]]
         if paper.is_all:
-            lines.append(f"wrote {paper.report()} and {len(files) + 4} more files in the same folder")
+            lines.append(
+                f"wrote {paper.report()} and {len(files) + 4} more files in the same folder"
+            )
         else:
             lines += [f"wrote {file}" for file in files]
     except KeyboardInterrupt:
-        raise Problem(f"stopped before the end; finished runs are stored in '{paper.settings.out}'."
-                      "\nhint: the same call continues from there.", INTERRUPTED) from None
+        raise Problem(
+            f"stopped before the end; finished runs are stored in '{paper.settings.out}'."
+            "\nhint: the same call continues from there.",
+            INTERRUPTED,
+        ) from None
     print("\n".join(lines), flush=True)
     missing = [made["name"] for made in paper.made if made["problem"]]
     if missing:
-        raise Problem(f"figures that could not be made: {', '.join(missing)}; the reasons are listed above.")
+        raise Problem(
+            f"figures that could not be made: {', '.join(missing)}; the reasons are listed above."
+        )

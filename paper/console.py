@@ -24,16 +24,19 @@ def report(error):
 
 
 def stop_on_signals():
-    """All signals that end a program raise KeyboardInterrupt, except those that the caller ignores (nohup)."""
+    """All signals that end a program raise KeyboardInterrupt, except those that the caller ignores
+    (nohup)."""
+
     def stop(*_):
         raise KeyboardInterrupt
+
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is not signal.SIG_IGN:
             signal.signal(number, stop)
 
 
 def duration(seconds):
-    """"12 s", "3 min 20 s", "2 h 5 min"."""
+    """ "12 s", "3 min 20 s", "2 h 5 min"."""
     s = math.ceil(seconds)
     if s < 60:
         return f"{s} s"
@@ -45,7 +48,7 @@ LEAST_SHARE, LEAST_SECONDS, DAY = 0.02, 5.0, 86_400.0
 
 
 def time_left(seconds, fraction):
-    """", 3 min 20 s left", an estimate from the time so far; nothing while it would be a guess."""
+    """ ", 3 min 20 s left", an estimate from the time so far; nothing while it would be a guess."""
     if fraction < LEAST_SHARE or seconds < LEAST_SECONDS:
         return ""
     left = seconds * (1 / fraction - 1)
@@ -73,5 +76,13 @@ class Progress:
         if self.quiet or now < self.next:
             return
         self.next = now + (0.1 if self.terminal else 30)
-        text = f"{self.label}{part and f', {part}'}: {100 * fraction:.0f} %{time_left(now - self.begin, fraction)}"
-        print(f"\r{text}\x1b[K" if self.terminal else text, end="" if self.terminal else "\n", file=sys.stderr, flush=True)
+        text = (
+            f"{self.label}{part and f', {part}'}: {100 * fraction:.0f} "
+            f"%{time_left(now - self.begin, fraction)}"
+        )
+        print(
+            f"\r{text}\x1b[K" if self.terminal else text,
+            end="" if self.terminal else "\n",
+            file=sys.stderr,
+            flush=True,
+        )

@@ -21,8 +21,11 @@ def main():
     name = os.path.splitext(os.path.basename(table))[0].removeprefix("figure_")
     draw = catalogue.drawing(name)
     if not draw:
-        sys.exit(f"error: '{table}' is not the table of a figure.\nhint: name it as `swirl paper` does, such as "
-                 "figure_5b.csv.")
+        sys.exit(
+            f"error: '{table}' is not the table of a figure.\n"
+            "hint: name it as `swirl paper` does, such as "
+            "figure_5b.csv."
+        )
     draw(table, *map(float, sys.argv[2:]))
 
 

@@ -1,4 +1,5 @@
-"""The Python module swirl, imported when it is first used: to draw a table, it need not be built."""
+"""The Python module swirl, imported when it is first used: to draw a table, it need not be
+built."""
 
 import importlib
 import json
@@ -19,5 +20,10 @@ def result_of(parameters, measure):
 
 def simulation_of(parameters):
     """A swirl.Simulation with the parameters of a run, without its length."""
-    return swirl.Simulation(**{name: value for name, value in parameters.items()
-                               if name not in ("periods", "warmup", "events")})
+    return swirl.Simulation(
+        **{
+            name: value
+            for name, value in parameters.items()
+            if name not in ("periods", "warmup", "events")
+        }
+    )

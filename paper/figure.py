@@ -10,8 +10,9 @@ from curves import write_table
 
 @dataclasses.dataclass
 class Figure:
-    """`points(settings)` lists study.Point; `table(points, settings)` returns ({ending: rows}, findings), where the
-    ending "" is that of the table figure_NAME.csv; `draw(file)` draws this table to PNG and PDF next to it."""
+    """`points(settings)` lists study.Point; `table(points, settings)` returns ({ending: rows},
+    findings), where the ending "" is that of the table figure_NAME.csv; `draw(file)` draws this
+    table to PNG and PDF next to it."""
 
     name: str
     group: str  # one of catalogue.GROUPS

@@ -5,8 +5,8 @@
     picture           a PNG file, alone
     bullets           texts
     table             (head, rows of texts); the last cell of a short row spans the others
-    figures           dictionaries with "title", and where there are any "images", "wide", "question", "caption", "findings",
-                      "remarks" and "command"
+    figures           dictionaries with "title", and where there are any "images", "wide",
+                      "question", "caption", "findings", "remarks" and "command"
     claims            dictionaries (report.claim_row)
 
 The layout of HTML is page.html.j2, and that of Markdown page.md.j2.
@@ -45,9 +45,19 @@ def rendered(layout, folder=".", **values):
     def inline(name):
         with open(os.path.join(folder, name), "rb") as file:
             return "data:image/png;base64," + base64.b64encode(file.read()).decode()
-    pages = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=".html" in layout, trim_blocks=True,
-                               keep_trailing_newline=True)
-    pages.filters.update(rich=lambda text: markupsafe.Markup(rich(text)), cell=cell, inline=inline, bullet="- {}".format)
+
+    pages = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(HERE),
+        autoescape=".html" in layout,
+        trim_blocks=True,
+        keep_trailing_newline=True,
+    )
+    pages.filters.update(
+        rich=lambda text: markupsafe.Markup(rich(text)),
+        cell=cell,
+        inline=inline,
+        bullet="- {}".format,
+    )
     return pages.get_template(layout).render(**values)
 
 
@@ -58,14 +68,21 @@ def size_of(png):
 
 
 def described_folder(name, command, what):
-    """The folder in the command line, and the content of NAME there, which `command FOLDER` wrote."""
+    """The folder in the command line, and the content of NAME there, which `command FOLDER`
+    wrote."""
     if len(sys.argv) != 2 or sys.argv[1] in ("-h", "--help"):
-        print(f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
-              f"{what} from the files that `{command} FOLDER` wrote", file=sys.stderr)
+        print(
+            f"usage: /usr/bin/python3 {sys.argv[0]} FOLDER\n"
+            f"{what} from the files that `{command} FOLDER` wrote",
+            file=sys.stderr,
+        )
         sys.exit(0 if sys.argv[1:] in (["-h"], ["--help"]) else 2)
     folder = sys.argv[1]
     try:
         with open(os.path.join(folder, name), encoding="utf-8") as file:
             return folder, json.load(file)
     except FileNotFoundError:
-        sys.exit(f"error: '{folder}/{name}' does not exist.\nhint: `{command.removesuffix(' --out')}` writes it.")
+        sys.exit(
+            f"error: '{folder}/{name}' does not exist.\n"
+            f"hint: `{command.removesuffix(' --out')}` writes it."
+        )

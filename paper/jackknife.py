@@ -1,5 +1,5 @@
-"""The error of any statistic of independent points or runs, from leaving out one at a time (Efron, Tibshirani, An
-Introduction to the Bootstrap, 1993, ch. 11)."""
+"""The error of any statistic of independent points or runs, from leaving out one at a time (Efron,
+Tibshirani, An Introduction to the Bootstrap, 1993, ch. 11)."""
 
 import math
 
@@ -12,4 +12,6 @@ def jackknife(count, statistic):
         return math.nan, math.nan
     everything = np.arange(count)
     without = np.array([statistic(np.delete(everything, k)) for k in everything])
-    return statistic(everything), math.sqrt((count - 1) / count * np.sum((without - without.mean()) ** 2))
+    return statistic(everything), math.sqrt(
+        (count - 1) / count * np.sum((without - without.mean()) ** 2)
+    )

@@ -1,22 +1,26 @@
-"""The relations of a micropolar fluid, fitted to measured fields (Dahler, Scriven 1961; Tsai, Ye, Gollub, Lubensky 2005, doi:10.1103/PhysRevLett.94.214301):
+"""The relations of a micropolar fluid, fitted to measured fields (Dahler, Scriven 1961; Tsai, Ye,
+Gollub, Lubensky 2005, doi:10.1103/PhysRevLett.94.214301):
 
     torque of the stress   σ_yx − σ_xy = Γ √(mT) (curl u − 2ω)
     deviator of σ          = 2 √(mT) η e,  e the deviator of the strain rate
     couple stress          C = D √(mT) ∇ω
-    pressure               p = k p_H,  p_H that of smooth elastic discs (Henderson 1975, doi:10.1080/00268977500102511)
+    pressure               p = k p_H,  p_H that of smooth elastic discs (Henderson 1975,
+                           doi:10.1080/00268977500102511)
 
-Rigid discs have no other scale of time than √(m/T), so the coefficients depend on the packing fraction only, as long as the
-spins are as hot as the motion.
+Rigid discs have no other scale of time than √(m/T), so the coefficients depend on the packing
+fraction only, as long as the spins are as hot as the motion.
 
-One measured number is no coefficient of a fluid: the angle α by which the principal axes of the stress are turned against
-those of the strain rate. With e* = e turned by 45°, (e_xx, e_xy) → (−e_xy, e_xx), the fit a e + b e* has tan 2α = b/a. It
-depends on the amplitude of the swirl at the same packing fraction (docs/results/continuum.md), so no odd viscosity and no
-normal-stress difference of a fluid are derived from it.
+One measured number is no coefficient of a fluid: the angle α by which the principal axes of the
+stress are turned against those of the strain rate. With e* = e turned by 45°, (e_xx, e_xy) →
+(−e_xy, e_xx), the fit a e + b e* has tan 2α = b/a. It depends on the amplitude of the swirl at the
+same packing fraction (docs/results/continuum.md), so no odd viscosity and no normal-stress
+difference of a fluid are derived from it.
 
-The fit is y = Σ k_a x_a at every point where the packing fraction, a mean over the seeds, is in a range and no contact with
-the wall contributes. Both x and y have errors, which are correlated within a run. So only products of two different seeds
-count: k = M⁻¹ v with M_ab = Σ x_a,i x_b,j and v_a = Σ x_a,i y_j over points and pairs of seeds i ≠ j; noise does not change
-their expectation. The share of the square of the mean field y that is explained is v·k / Σ y_i y_j. Errors: jackknife over
+The fit is y = Σ k_a x_a at every point where the packing fraction, a mean over the seeds, is in a
+range and no contact with the wall contributes. Both x and y have errors, which are correlated
+within a run. So only products of two different seeds count: k = M⁻¹ v with M_ab = Σ x_a,i x_b,j and
+v_a = Σ x_a,i y_j over points and pairs of seeds i ≠ j; noise does not change their expectation. The
+share of the square of the mean field y that is explained is v·k / Σ y_i y_j. Errors: jackknife over
 the seeds. Limits: four seeds; points with a missing value in any seed are omitted.
 """
 
@@ -30,6 +34,7 @@ from jackknife import jackknife
 
 
 # --- Relations ------------------------------------------------------------------------------------
+
 
 def speed(f):
     """√(T/m) for discs of mass 1."""
@@ -47,12 +52,15 @@ def turned(f):
 
 def deviator(f):
     stress = {ab: f[f"kinetic_{ab}"] + f[f"collisional_{ab}"] for ab in ("xx", "xy", "yy")}
-    return 0.5 * (stress["xx"] - stress["yy"]), 0.5 * (stress["xy"] + f["kinetic_xy"] + f["collisional_yx"])
+    return 0.5 * (stress["xx"] - stress["yy"]), 0.5 * (
+        stress["xy"] + f["kinetic_xy"] + f["collisional_yx"]
+    )
 
 
 @dataclasses.dataclass(frozen=True)
 class Relation:
-    """`terms` and `field` return one component or two of x_a and y; `shown` is the number of all coefficients."""
+    """`terms` and `field` return one component or two of x_a and y; `shown` is the number of all
+    coefficients."""
 
     name: str
     words: str
@@ -63,17 +71,38 @@ class Relation:
 
 
 RELATIONS = (
-    Relation("rotational_viscosity", "rotational viscosity Γ", "torque of the stress",
-             (lambda f: (speed(f) * (f["vorticity"] - 2 * f["spin"]),),), lambda f: (f["torque"],)),
+    Relation(
+        "rotational_viscosity",
+        "rotational viscosity Γ",
+        "torque of the stress",
+        (lambda f: (speed(f) * (f["vorticity"] - 2 * f["spin"]),),),
+        lambda f: (f["torque"],),
+    ),
     Relation("shear_viscosity", "shear viscosity η", "deviator of the stress", (strain,), deviator),
-    Relation("spin_diffusion", "spin diffusion D", "couple stress",
-             (lambda f: tuple(speed(f) * f[f"spin_gradient_{a}"] for a in "xy"),),
-             lambda f: tuple(f[f"kinetic_couple_{a}"] + f[f"collisional_couple_{a}"] for a in "xy")),
-    Relation("pressure", "pressure relative to smooth elastic discs", "pressure",
-             # Discs of radius 1 have the number density φ/π.
-             (lambda f: (f["packing"] / math.pi * f["temperature"] * pressure_ratio(f["packing"]),),), lambda f: (f["pressure"],)),
-    Relation("angle", "angle of the stress against the strain rate", "deviator of the stress, with η", (strain, turned), deviator,
-             lambda k: math.degrees(0.5 * math.atan2(k[1], k[0]))))
+    Relation(
+        "spin_diffusion",
+        "spin diffusion D",
+        "couple stress",
+        (lambda f: tuple(speed(f) * f[f"spin_gradient_{a}"] for a in "xy"),),
+        lambda f: tuple(f[f"kinetic_couple_{a}"] + f[f"collisional_couple_{a}"] for a in "xy"),
+    ),
+    Relation(
+        "pressure",
+        "pressure relative to smooth elastic discs",
+        "pressure",
+        # Discs of radius 1 have the number density φ/π.
+        (lambda f: (f["packing"] / math.pi * f["temperature"] * pressure_ratio(f["packing"]),),),
+        lambda f: (f["pressure"],),
+    ),
+    Relation(
+        "angle",
+        "angle of the stress against the strain rate",
+        "deviator of the stress, with η",
+        (strain, turned),
+        deviator,
+        lambda k: math.degrees(0.5 * math.atan2(k[1], k[0])),
+    ),
+)
 
 
 @dataclasses.dataclass
@@ -84,7 +113,8 @@ class Fit:
 
 
 def fit_relation(seeds, relation, low, high, reach):
-    """`seeds`: {column: array over the points of the grid} of each seed; `reach`: largest distance from C."""
+    """`seeds`: {column: array over the points of the grid} of each seed; `reach`: largest distance
+    from C."""
     if not seeds:
         return Fit(0)
     packing = sum(f["packing"] / len(seeds) for f in seeds)
@@ -101,7 +131,8 @@ def fit_relation(seeds, relation, low, high, reach):
 
 
 def fit(terms, field, shown=lambda k: k[0]):
-    """The fit of a field [seed, point] to terms [seed, term, point]; `shown` is the number of all coefficients."""
+    """The fit of a field [seed, point] to terms [seed, term, point]; `shown` is the number of all
+    coefficients."""
     known = np.isfinite(terms).all(axis=(0, 1)) & np.isfinite(field).all(axis=0)
     if not known.any():
         return Fit(0)
@@ -123,5 +154,8 @@ def fit(terms, field, shown=lambda k: k[0]):
         # Noise may make a sum of squares negative; then nothing is known.
         return s[:-1, -1] @ coefficients(s) / s[-1, -1] if (s.diagonal() > 0).all() else math.nan
 
-    return Fit(int(known.sum()), jackknife(len(field), lambda k: shown(coefficients(products(k)))),
-               jackknife(len(field), explained))
+    return Fit(
+        int(known.sum()),
+        jackknife(len(field), lambda k: shown(coefficients(products(k)))),
+        jackknife(len(field), explained),
+    )

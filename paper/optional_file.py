@@ -1,5 +1,6 @@
-"""Files that may be absent, as in the program (src/swirl/io/optional_file.hpp): any error other than absence raises
-OSError. os.path.exists() and glob.glob() take a disk that does not answer for absence."""
+"""Files that may be absent, as in the program (src/swirl/io/optional_file.hpp): any error other
+than absence raises OSError. os.path.exists() and glob.glob() take a disk that does not answer for
+absence."""
 
 import os
 

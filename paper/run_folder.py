@@ -1,5 +1,6 @@
-"""The runs of the figures are sweeps, one for each list of measurements: OUT/runs/rotation, OUT/runs/frustration+slip,
-and so on. `swirl collect OUT/runs/rotation` makes the table of one, and Python and the command line can continue it."""
+"""The runs of the figures are sweeps, one for each list of measurements: OUT/runs/rotation,
+OUT/runs/frustration+slip, and so on. `swirl collect OUT/runs/rotation` makes the table of one, and
+Python and the command line can continue it."""
 
 import fcntl
 import json
@@ -18,12 +19,15 @@ def folder_of(out, measure):
 
 def by_measurements(tasks):
     """[(measurements, the tasks that need them)]"""
-    return [(measure, [task for task in tasks if task.measure == measure])
-            for measure in dict.fromkeys(task.measure for task in tasks)]
+    return [
+        (measure, [task for task in tasks if task.measure == measure])
+        for measure in dict.fromkeys(task.measure for task in tasks)
+    ]
 
 
 def files_of(folder, tasks):
-    """[[(file of the result, file of the error message)]] for each task; [] if the sweep does not have its run."""
+    """[[(file of the result, file of the error message)]] for each task; [] if the sweep does not
+    have its run."""
     return swirl._engine.result_files(folder, [task.parameters for task in tasks], 1)
 
 
@@ -35,14 +39,19 @@ def plan(out, tasks):
         for measure, here in by_measurements(tasks):
             folder = folder_of(out, measure)
             if not optional_file.exists(os.path.join(folder, "plan.json")):
-                swirl._engine.Plan({}, 1, list(measure), 0, rows=[task.parameters for task in here]).write(folder)
-            elif new := [task.parameters for task, files in zip(here, files_of(folder, here)) if not files]:
+                swirl._engine.Plan(
+                    {}, 1, list(measure), 0, rows=[task.parameters for task in here]
+                ).write(folder)
+            elif new := [
+                task.parameters for task, files in zip(here, files_of(folder, here)) if not files
+            ]:
                 swirl._engine.grow(folder, {}, 1, [], new)
 
 
 def take(folder, tasks):
-    """Takes the results of these tasks that are whole, of this version, and unchanged since they were first read. Any
-    other result is removed, so that its run is made again; those of another version are kept elsewhere."""
+    """Takes the results of these tasks that are whole, of this version, and unchanged since they
+    were first read. Any other result is removed, so that its run is made again; those of another
+    version are kept elsewhere."""
     list_of_checksums = os.path.join(folder, "checksums.json")
     known = atomic_file.stored(list_of_checksums) or {}
     before = dict(known)
@@ -57,8 +66,10 @@ def take(folder, tasks):
                     known.pop(name, None)
                     other_versions.keep(file, stored["version"])
                     continue
-                is_of_task = (stored["point"], stored["config"]["seed"]) == (int(name.removesuffix(".json")),
-                                                                             task.parameters["seed"])
+                is_of_task = (stored["point"], stored["config"]["seed"]) == (
+                    int(name.removesuffix(".json")),
+                    task.parameters["seed"],
+                )
                 if is_of_task and known.setdefault(name, checksum) == checksum:
                     task.result, task.seconds = stored, stored["seconds"]
                     continue
@@ -71,7 +82,8 @@ def take(folder, tasks):
 
 
 def find(out, tasks):
-    """Takes the results that exist. A sweep with further measurements serves a task without them."""
+    """Takes the results that exist. A sweep with further measurements serves a task without
+    them."""
     for name in optional_file.names_in(os.path.join(out, "runs")):
         folder, has = os.path.join(out, "runs", name), set(name.split("+"))
         if not optional_file.exists(os.path.join(folder, "plan.json")):
@@ -80,11 +92,16 @@ def find(out, tasks):
 
 
 def make(out, measure, tasks, threads, progress):
-    """Makes the runs of one sweep, in the order of the tasks. Waits for those that another process makes."""
+    """Makes the runs of one sweep, in the order of the tasks. Waits for those that another process
+    makes."""
     folder, left = folder_of(out, measure), tasks
     while left:
-        swirl._engine.sweep(folder, threads, lambda done, runs, _: progress(done / runs if runs else 1.0),
-                            [task.parameters for task in left])
+        swirl._engine.sweep(
+            folder,
+            threads,
+            lambda done, runs, _: progress(done / runs if runs else 1.0),
+            [task.parameters for task in left],
+        )
         take(folder, left)
         for task, [(_, failure)] in zip(left, files_of(folder, left)):
             if task.result is None and (message := optional_file.read(failure)):

@@ -1,7 +1,7 @@
 """The common style of all figures: sizes, colours, fonts, recurring elements, and saving.
 
-The colours are those of Okabe and Ito (2008), which are distinguishable with any kind of colour vision. Every
-curve also has its own marker.
+The colours are those of Okabe and Ito (2008), which are distinguishable with any kind of colour
+vision. Every curve also has its own marker.
 """
 
 import io
@@ -17,6 +17,7 @@ from tables import column, distinct, select  # noqa: F401
 
 try:
     import matplotlib
+
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
     import matplotlib.ticker
@@ -59,14 +60,36 @@ LOOKS = {
 }
 
 SETTINGS = {
-    "font.family": "sans-serif", "font.sans-serif": ["DejaVu Sans"], "font.size": 8, "mathtext.fontset": "dejavusans",
-    "axes.labelsize": 8.5, "axes.titlesize": 8.5, "axes.linewidth": 0.6, "axes.prop_cycle": f"cycler(color={CYCLE})",
-    "axes.spines.top": False, "axes.spines.right": False, "axes.unicode_minus": True,
-    **{f"{axis}tick.{name}": value for axis in "xy" for name, value in (
-        ("labelsize", 7.5), ("direction", "in"), ("major.width", 0.6), ("major.size", 3))},
-    "legend.fontsize": SMALLEST, "legend.frameon": False, "legend.handlelength": 1.6,
-    "lines.linewidth": 1.0, "lines.markersize": 3.2, "errorbar.capsize": 0, "image.cmap": "viridis",
-    "figure.dpi": 300, "savefig.dpi": 300,
+    "font.family": "sans-serif",
+    "font.sans-serif": ["DejaVu Sans"],
+    "font.size": 8,
+    "mathtext.fontset": "dejavusans",
+    "axes.labelsize": 8.5,
+    "axes.titlesize": 8.5,
+    "axes.linewidth": 0.6,
+    "axes.prop_cycle": f"cycler(color={CYCLE})",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.unicode_minus": True,
+    **{
+        f"{axis}tick.{name}": value
+        for axis in "xy"
+        for name, value in (
+            ("labelsize", 7.5),
+            ("direction", "in"),
+            ("major.width", 0.6),
+            ("major.size", 3),
+        )
+    },
+    "legend.fontsize": SMALLEST,
+    "legend.frameon": False,
+    "legend.handlelength": 1.6,
+    "lines.linewidth": 1.0,
+    "lines.markersize": 3.2,
+    "errorbar.capsize": 0,
+    "image.cmap": "viridis",
+    "figure.dpi": 300,
+    "savefig.dpi": 300,
     "pdf.fonttype": 42,  # TrueType: the text can be searched
 }
 
@@ -88,8 +111,7 @@ def figure(width=COLUMN, height=None, **subplots):
 
 def not_steady(rows):
     """Rows whose steady state is not verified: the run drifts, or is too short for the test."""
-    return [row for row in rows
-            if row.get("steady_state", "steady") not in ("steady", "failed")]
+    return [row for row in rows if row.get("steady_state", "steady") not in ("steady", "failed")]
 
 
 def note(drawing, text):
@@ -111,7 +133,10 @@ def note_not_steady(drawing, rows):
 
 def groups(rows, name):
     """[(value, its rows, colour and marker)] of each value of a column."""
-    return [(value, select(rows, **{name: value}), look_of(k)) for k, value in enumerate(distinct(rows, name))]
+    return [
+        (value, select(rows, **{name: value}), look_of(k))
+        for k, value in enumerate(distinct(rows, name))
+    ]
 
 
 def look_of(k):
@@ -119,8 +144,8 @@ def look_of(k):
 
 
 def curve(axes, rows, x, y, **look):
-    """One line with errors; its symbols are open where the run is not steady. If no run has an average, only its label.
-    Returns the mark for a legend."""
+    """One line with errors; its symbols are open where the run is not steady. If no run has an
+    average, only its label. Returns the mark for a legend."""
     if not np.isfinite(column(rows, y)).any():
         return axes.errorbar([], [], **look)
     bars = column(rows, y + "_error")
@@ -129,18 +154,28 @@ def curve(axes, rows, x, y, **look):
     elif axes.get_yscale() == "log":
         bars = log_errors(column(rows, y), bars)
     across = column(rows, x + "_error") if x + "_error" in rows[0] else None
-    mark = axes.errorbar(column(rows, x), column(rows, y), bars, across, **({"elinewidth": 0.7} | look))
+    mark = axes.errorbar(
+        column(rows, x), column(rows, y), bars, across, **({"elinewidth": 0.7} | look)
+    )
     line, marked = mark[0], not_steady(rows)
     if marked:
-        axes.plot(column(marked, x), column(marked, y), line.get_marker(), color=line.get_color(),
-                  markersize=line.get_markersize(), markerfacecolor="white", markeredgewidth=0.6, zorder=line.get_zorder())
+        axes.plot(
+            column(marked, x),
+            column(marked, y),
+            line.get_marker(),
+            color=line.get_color(),
+            markersize=line.get_markersize(),
+            markerfacecolor="white",
+            markeredgewidth=0.6,
+            zorder=line.get_zorder(),
+        )
         note(axes.figure, "open: steady state not verified")
     return mark
 
 
 def rotation_figure(table, curves, of="discs", width=COLUMN, height=None, fine=False, **more):
-    """A complete figure: rotation against the number of `of`; `curves` are rows and their style. With `fine`, the
-    scale is fine near zero."""
+    """A complete figure: rotation against the number of `of`; `curves` are rows and their style.
+    With `fine`, the scale is fine near zero."""
     drawing, axes = figure(width, height)
     zero_line(axes)
     for rows, look in curves:
@@ -156,7 +191,8 @@ LINEAR = 0.1  # rotation rates: linear up to ±0.1, logarithmic beyond
 
 
 def fine_near_zero(axes, values, linear=LINEAR):
-    """Shows all values with a fine scale near zero. Dotted lines mark where the scale becomes logarithmic."""
+    """Shows all values with a fine scale near zero. Dotted lines mark where the scale becomes
+    logarithmic."""
     low, high = np.nanmin([*values, 0]), np.nanmax([*values, 0])
     if max(high, -low) <= linear:
         return
@@ -172,12 +208,18 @@ def fine_near_zero(axes, values, linear=LINEAR):
 
 
 def without_crossing(axes, rows, x, color):
-    """Arrows towards the N_c that a search has not found: it is above the searched N, or below for more friction."""
+    """Arrows towards the N_c that a search has not found: it is above the searched N, or below for
+    more friction."""
     found = column(select(rows, crosses=1.0), x)
     for row in select(rows, crosses=0.0):
         above = not found or row[x] < min(found)
-        axes.annotate("", (row[x], 0.99 if above else 0.01), (row[x], 0.91 if above else 0.09),
-                      axes.get_xaxis_transform(), arrowprops={"arrowstyle": "->", "color": color, "linewidth": 0.8})
+        axes.annotate(
+            "",
+            (row[x], 0.99 if above else 0.01),
+            (row[x], 0.91 if above else 0.09),
+            axes.get_xaxis_transform(),
+            arrowprops={"arrowstyle": "->", "color": color, "linewidth": 0.8},
+        )
         note(axes.figure, "arrows: no change of direction among the searched $N$")
 
 
@@ -189,16 +231,30 @@ def log_errors(values, errors):
 
 def legend(axes, ncol=2, **more):
     """Above the axes, clear of the data."""
-    axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncol=ncol, columnspacing=1.2,
-                borderaxespad=0.2, **more)
+    axes.legend(
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncol=ncol,
+        columnspacing=1.2,
+        borderaxespad=0.2,
+        **more,
+    )
 
 
 def legend_of_all(drawing, marks, ncol):
     """Above all axes of a figure; `marks` are those of the legend, or the axes that have them."""
     marks = marks if isinstance(marks, list) else marks.get_legend_handles_labels()[0]
-    drawing.suptitle("\n".join([" "] * math.ceil(len(marks) / ncol)), fontsize=SMALLEST)  # reserves the space
-    drawing.legend(marks, [mark.get_label() for mark in marks], loc="upper center", ncol=ncol, columnspacing=1.2,
-                   borderaxespad=0.2)
+    drawing.suptitle(
+        "\n".join([" "] * math.ceil(len(marks) / ncol)), fontsize=SMALLEST
+    )  # reserves the space
+    drawing.legend(
+        marks,
+        [mark.get_label() for mark in marks],
+        loc="upper center",
+        ncol=ncol,
+        columnspacing=1.2,
+        borderaxespad=0.2,
+    )
 
 
 def rotation_axes(axes, average="by time", of="discs"):
@@ -246,25 +302,53 @@ def container(axes, radius, color=BLACK, amplitude=AMPLITUDE):
     axes.text(0, -1.07 * radius, "$M$", color=PINK, fontsize=SMALLEST + 1, ha="center", va="top")
     # The outline keeps it visible on arrows and on any colour of a map.
     edge = [withStroke(linewidth=1.6, foreground=BLACK if color == "white" else "white")]
-    axes.plot(0, amplitude, "+", color=color, markersize=4, markeredgewidth=0.8, zorder=5,
-              path_effects=edge)
-    axes.text(0.05 * radius, amplitude + 0.02 * radius, "$S$", color=color,
-              fontsize=SMALLEST + 1, va="bottom", zorder=5, path_effects=edge)
+    axes.plot(
+        0,
+        amplitude,
+        "+",
+        color=color,
+        markersize=4,
+        markeredgewidth=0.8,
+        zorder=5,
+        path_effects=edge,
+    )
+    axes.text(
+        0.05 * radius,
+        amplitude + 0.02 * radius,
+        "$S$",
+        color=color,
+        fontsize=SMALLEST + 1,
+        va="bottom",
+        zorder=5,
+        path_effects=edge,
+    )
     for degrees, align in ((0, "left"), (90, "center"), (180, "right")):
         turn = math.radians(degrees)
-        axes.text(1.06 * radius * math.cos(turn), 1.11 * radius * math.sin(turn),
-                  r"$\theta = 0$" if degrees == 0 else f"{degrees}°", fontsize=SMALLEST, color="0.3",
-                  ha=align, va="center")
+        axes.text(
+            1.06 * radius * math.cos(turn),
+            1.11 * radius * math.sin(turn),
+            r"$\theta = 0$" if degrees == 0 else f"{degrees}°",
+            fontsize=SMALLEST,
+            color="0.3",
+            ha=align,
+            va="center",
+        )
     axes.set(xlim=(-1.3 * radius, 1.3 * radius), ylim=(-1.3 * radius, 1.2 * radius))
 
 
 def cells(axes, rows, name, radius, most):
-    """A map of equal cells over the square around the container, white outside the container. Colours grow with the
-    square root, so that one scale up to `most` shows few particles and many."""
+    """A map of equal cells over the square around the container, white outside the container.
+    Colours grow with the square root, so that one scale up to `most` shows few particles and
+    many."""
     side = round(len(rows) ** 0.5)
-    image = [column(rows[k * side:(k + 1) * side], name) for k in range(side)]
-    shown = axes.imshow(image, origin="lower", extent=[-radius, radius, -radius, radius],
-                        interpolation="nearest", norm=matplotlib.colors.PowerNorm(0.5, 0, most))
+    image = [column(rows[k * side : (k + 1) * side], name) for k in range(side)]
+    shown = axes.imshow(
+        image,
+        origin="lower",
+        extent=[-radius, radius, -radius, radius],
+        interpolation="nearest",
+        norm=matplotlib.colors.PowerNorm(0.5, 0, most),
+    )
     shown.set_clip_path(plt.Circle((0, 0), radius, transform=axes.transData))
     return shown
 
@@ -283,11 +367,12 @@ def blocks(rows, side):
     across, up = (distinct(rows, axis) for axis in ("x", "y"))
     members = {}
     for row in rows:
-        members.setdefault((across.index(row["x"]) // side, up.index(row["y"]) // side),
-                           []).append(row)
+        members.setdefault((across.index(row["x"]) // side, up.index(row["y"]) // side), []).append(
+            row
+        )
 
     def middle(positions, k):
-        here = positions[k * side:(k + 1) * side]
+        here = positions[k * side : (k + 1) * side]
         return sum(here) / len(here)
 
     result = []
@@ -295,9 +380,13 @@ def blocks(rows, side):
         here = [row for row in here if row["visits"] > 0]
         visits = sum(row["visits"] for row in here)
         if visits:
-            result.append({"x": middle(across, i), "y": middle(up, j), "visits": visits} | {
-                name: sum(row["visits"] * row[name] for row in here) / visits
-                for name in ("u_x", "u_y")})
+            result.append(
+                {"x": middle(across, i), "y": middle(up, j), "visits": visits}
+                | {
+                    name: sum(row["visits"] * row[name] for row in here) / visits
+                    for name in ("u_x", "u_y")
+                }
+            )
     return result
 
 
@@ -306,21 +395,44 @@ def speed(row):
 
 
 def arrows(axes, rows, spacing, fastest, color, key=(0.9, 0.03)):
-    """Velocities in units of the container's speed, each in the middle of its cell. The fastest arrow is as long as
-    the distance of the cells, so arrows do not overlap. `key`: position of the scale in the axes."""
-    drawn = axes.quiver(column(rows, "x"), column(rows, "y"), column(rows, "u_x"),
-                        column(rows, "u_y"), color=color, angles="xy", scale_units="xy",
-                        scale=fastest / spacing, pivot="mid", units="xy", width=0.095 * spacing,
-                        headwidth=3.6, headlength=4, headaxislength=3.6, minlength=0.5)
+    """Velocities in units of the container's speed, each in the middle of its cell. The fastest
+    arrow is as long as the distance of the cells, so arrows do not overlap. `key`: position of the
+    scale in the axes."""
+    drawn = axes.quiver(
+        column(rows, "x"),
+        column(rows, "y"),
+        column(rows, "u_x"),
+        column(rows, "u_y"),
+        color=color,
+        angles="xy",
+        scale_units="xy",
+        scale=fastest / spacing,
+        pivot="mid",
+        units="xy",
+        width=0.095 * spacing,
+        headwidth=3.6,
+        headlength=4,
+        headaxislength=3.6,
+        minlength=0.5,
+    )
     # The scale, outside the container.
     known = max([k for k in (0.1, 0.2, 0.5, 1, 2, 5) if k <= fastest], default=fastest)
-    axes.quiverkey(drawn, *key, known, f"speed {known:g}", labelpos="N" if key[0] > 0.5 else "E", coordinates="axes",
-                   color=BLACK if color == "white" else color,
-                   fontproperties={"size": SMALLEST}, labelsep=0.03)
+    axes.quiverkey(
+        drawn,
+        *key,
+        known,
+        f"speed {known:g}",
+        labelpos="N" if key[0] > 0.5 else "E",
+        coordinates="axes",
+        color=BLACK if color == "white" else color,
+        fontproperties={"size": SMALLEST},
+        labelsep=0.03,
+    )
 
 
 def save(drawing, table):
-    """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives the same bytes."""
+    """Writes PNG and PDF next to the table, atomically. They contain no date: the same table gives
+    the same bytes."""
     drawing.draw_without_rendering()  # the first layout has the sizes of labels that change in it
     for kind, about in (("png", {"Software": None}), ("pdf", {"CreationDate": None})):
         drawn = io.BytesIO()
@@ -330,7 +442,8 @@ def save(drawing, table):
 
 
 def grid(rows, x, y, name):
-    """(values along x, values along y, image) of a quantity over two parameters; points without a row are NaN."""
+    """(values along x, values along y, image) of a quantity over two parameters; points without a
+    row are NaN."""
     across, up = distinct(rows, x), distinct(rows, y)
     image = np.full((len(up), len(across)), np.nan)
     for row in rows:

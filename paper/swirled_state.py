@@ -1,16 +1,19 @@
-"""The quantities that published experiments with swirled spheres report: kinetic energy, rings, paths of single
-particles, and rotation. All are averages over the samples of one run after its warm-up.
+"""The quantities that published experiments with swirled spheres report: kinetic energy, rings,
+paths of single particles, and rotation. All are averages over the samples of one run after its
+warm-up.
 
-Paths. A rigid cluster whose centre orbits the container's centre C with the swirl's Ω, and that rotates with ϖ about its
-own centre, moves each of its discs along p(t) = D e^{iΩt} + ρ e^{iϖt} relative to C, as complex numbers. With ϖ < 0 this is
-a hypotrochoid. A cluster of radius R_c in a container of radius R has |D| = R − R_c. If it rolls without slip,
-ϖ = Ω (1 − R/R_c); then a disc at its rim, |ρ| = R_c, follows a hypocycloid with its cusps at the wall. D and ρ are free for
-each disc, ϖ is one number for all discs. For a given ϖ, with the means over the samples a = ⟨p e^{−iΩt}⟩,
-b = ⟨p e^{−iϖt}⟩ and g = ⟨e^{i(ϖ−Ω)t}⟩, least squares leave
+Paths. A rigid cluster whose centre orbits the container's centre C with the swirl's Ω, and that
+rotates with ϖ about its own centre, moves each of its discs along p(t) = D e^{iΩt} + ρ e^{iϖt}
+relative to C, as complex numbers. With ϖ < 0 this is a hypotrochoid. A cluster of radius R_c in a
+container of radius R has |D| = R − R_c. If it rolls without slip, ϖ = Ω (1 − R/R_c); then a disc at
+its rim, |ρ| = R_c, follows a hypocycloid with its cusps at the wall. D and ρ are free for each
+disc, ϖ is one number for all discs. For a given ϖ, with the means over the samples a = ⟨p
+e^{−iΩt}⟩, b = ⟨p e^{−iϖt}⟩ and g = ⟨e^{i(ϖ−Ω)t}⟩, least squares leave
 
     ⟨|p|²⟩ − (|a|² + |b|² − 2 Re(a* g b)) / (1 − |g|²)
 
-for each disc. ϖ is that of least residual on a grid from −0.5 to 0.8 Ω, because the two terms cannot be separated near Ω.
+for each disc. ϖ is that of least residual on a grid from −0.5 to 0.8 Ω, because the two terms
+cannot be separated near Ω.
 """
 
 import numpy as np
@@ -30,12 +33,19 @@ def mean_with(paths, rate):
 
 
 def fit_hypotrochoids(paths):
-    """(ϖ/Ω, root mean square distance of the discs from their paths); `paths` [sample, disc] are complex."""
-    power, a, ones = np.sum(np.abs(paths) ** 2) / len(paths), mean_with(paths, 1), np.ones((len(paths), 1))
+    """(ϖ/Ω, root mean square distance of the discs from their paths); `paths` [sample, disc] are
+    complex."""
+    power, a, ones = (
+        np.sum(np.abs(paths) ** 2) / len(paths),
+        mean_with(paths, 1),
+        np.ones((len(paths), 1)),
+    )
 
     def residual(rate):
         g, b = mean_with(ones, 1 - rate)[0], mean_with(paths, rate)
-        return power - np.sum(np.abs(a) ** 2 + np.abs(b) ** 2 - 2 * (a.conj() * g * b).real) / (1 - abs(g) ** 2)
+        return power - np.sum(np.abs(a) ** 2 + np.abs(b) ** 2 - 2 * (a.conj() * g * b).real) / (
+            1 - abs(g) ** 2
+        )
 
     def search(numbers):
         return min((residual(RATES[k]), k) for k in numbers)
@@ -56,10 +66,17 @@ class Samples:
 
     def block(self, frames):
         snapshots = [frames[k] for k in range(len(frames))]
-        rolling = [0 if s.rolling_spin is None else np.sum(s.rolling_spin ** 2, axis=1) for s in snapshots]
-        here = {"position": frames.position - frames.container_centre[:, None],
-                "velocity": frames.velocity, "carrier": frames.container_velocity,
-                "spins": frames.inertia / frames.mass * (frames.spin ** 2 + np.array(rolling).reshape(len(snapshots), -1))}
+        rolling = [
+            0 if s.rolling_spin is None else np.sum(s.rolling_spin**2, axis=1) for s in snapshots
+        ]
+        here = {
+            "position": frames.position - frames.container_centre[:, None],
+            "velocity": frames.velocity,
+            "carrier": frames.container_velocity,
+            "spins": frames.inertia
+            / frames.mass
+            * (frames.spin**2 + np.array(rolling).reshape(len(snapshots), -1)),
+        }
         for name, column in here.items():
             self.columns.setdefault(name, []).append(column)
         self.radius = frames.container_radius
@@ -78,18 +95,34 @@ def densities(distance):
 
 
 def swirled_run(parameters):
-    """The averages over a run, as numbers, and the densities in rings about the cluster's and the container's centre."""
+    """The averages over a run, as numbers, and the densities in rings about the cluster's and the
+    container's centre."""
     samples = Samples()
     run = swirl.run(measure=samples, **parameters)
     s = {name: np.concatenate(blocks) for name, blocks in samples.columns.items()}
     p = s["position"]
     r = p - p.mean(axis=1)[:, None]
     length = PERIODS_OF_A_PATH * PER_PERIOD
-    fits = np.array([fit_hypotrochoids(p[k:k + length] @ [1, 1j]) for k in range(0, len(p) - length + 1, length)])
+    fits = np.array(
+        [
+            fit_hypotrochoids(p[k : k + length] @ [1, 1j])
+            for k in range(0, len(p) - length + 1, length)
+        ]
+    )
     bins = int(2 * samples.radius * RINGS_PER_RADIUS) + 1
-    rings = {name: np.pad(values, (0, bins - len(values))).tolist() for name, values in
-             (("about_centre_of_mass", densities(np.sqrt(dot(r, r)))), ("about_container", densities(np.sqrt(dot(p, p)))))}
-    return {"speed_square": float(dot(s["carrier"], s["carrier"])[0]),
-            "square": float(dot(s["velocity"], s["velocity"]).mean()), "spin_square": float(s["spins"].mean()),
-            "path_rotation": float(fits[:, 0].mean()), "path_distance": float(np.sqrt((fits[:, 1] ** 2).mean())),
-            "rotation": run.rotation.mean_by_time.mean, **rings}
+    rings = {
+        name: np.pad(values, (0, bins - len(values))).tolist()
+        for name, values in (
+            ("about_centre_of_mass", densities(np.sqrt(dot(r, r)))),
+            ("about_container", densities(np.sqrt(dot(p, p)))),
+        )
+    }
+    return {
+        "speed_square": float(dot(s["carrier"], s["carrier"])[0]),
+        "square": float(dot(s["velocity"], s["velocity"]).mean()),
+        "spin_square": float(s["spins"].mean()),
+        "path_rotation": float(fits[:, 0].mean()),
+        "path_distance": float(np.sqrt((fits[:, 1] ** 2).mean())),
+        "rotation": run.rotation.mean_by_time.mean,
+        **rings,
+    }

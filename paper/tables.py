@@ -10,7 +10,8 @@ RATES = ("mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event")
 
 
 def read(table):
-    """The rows of a CSV table as dictionaries: numbers are floats, an empty cell is NaN, anything else is text."""
+    """The rows of a CSV table as dictionaries: numbers are floats, an empty cell is NaN, anything
+    else is text."""
 
     def value(cell):
         if cell == "":
@@ -25,7 +26,8 @@ def read(table):
 
 
 def companion(table, ending):
-    """The rows of a second table of a figure, such as figure_5b_crossings.csv; none if it does not exist."""
+    """The rows of a second table of a figure, such as figure_5b_crossings.csv; none if it does not
+    exist."""
     stem, kind = os.path.splitext(table)
     file = f"{stem}{ending}{kind}"
     return read(file) if optional_file.exists(file) else []

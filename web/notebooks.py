@@ -18,8 +18,13 @@ HANG = 3000  # seconds that no cell takes, on a busy machine either
 def run(file, folder):
     book = nbformat.read(file, as_version=4)
     with tempfile.TemporaryDirectory() as work:  # for the files that it writes
-        NotebookClient(book, kernel_name="python3", timeout=HANG, startup_timeout=HANG,
-                       resources={"metadata": {"path": work}}).execute()
+        NotebookClient(
+            book,
+            kernel_name="python3",
+            timeout=HANG,
+            startup_timeout=HANG,
+            resources={"metadata": {"path": work}},
+        ).execute()
     nbformat.write(book, os.path.join(folder, os.path.basename(file)))
 
 

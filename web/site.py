@@ -1,10 +1,10 @@
-"""Prepares the source folder of `swirl site` for Sphinx: links to the tree, plus the gallery and the notebooks as
-pages, and the live dish on the front page.
+"""Prepares the source folder of `swirl site` for Sphinx: links to the tree, plus the gallery and
+the notebooks as pages, and the live dish on the front page.
 
     site.py ROOT SOURCE GALLERY NOTEBOOKS
 
-GALLERY has the files that the commands of web/gallery.txt made. NOTEBOOKS has the executed notebooks; any other
-notebook is shown without output.
+GALLERY has the files that the commands of web/gallery.txt made. NOTEBOOKS has the executed
+notebooks; any other notebook is shown without output.
 """
 
 import base64
@@ -31,9 +31,13 @@ def write(path, text):
 
 
 def gallery_page(root, source, gallery):
-    page = ["# Gallery\n\nFor every reader: images and movies, each with the command that makes it.\n"]
+    page = [
+        "# Gallery\n\nFor every reader: images and movies, each with the command that makes it.\n"
+    ]
     with open(os.path.join(root, "web/gallery.txt"), encoding="utf-8") as opened:
-        rows = [line.rstrip("\n").split(" | ") for line in opened if line.strip() and line[0] != "#"]
+        rows = [
+            line.rstrip("\n").split(" | ") for line in opened if line.strip() and line[0] != "#"
+        ]
     for caption, command, *stored in rows:
         shown = stored[0] if stored else "gallery/" + re.search(r"--out (\S+)", command)[1]
         if not stored:
@@ -42,8 +46,12 @@ def gallery_page(root, source, gallery):
                 continue
             shutil.copy(made, os.path.join(source, "gallery"))
         alt = re.sub(r"([\[\]])", r"\\\1", caption)
-        page.append(f"![{alt}]({shown})\n" if not shown.endswith(".mp4") else
-                    f'```{{raw}} html\n<video src="{shown}" controls loop muted playsinline preload="metadata"></video>\n```\n')
+        page.append(
+            f"![{alt}]({shown})\n"
+            if not shown.endswith(".mp4")
+            else f'```{{raw}} html\n<video src="{shown}" controls loop muted playsinline '
+            'preload="metadata"></video>\n```\n'
+        )
         page.append(f"{caption}\n\n```sh\n./{command}\n```\n")
     write(os.path.join(source, "gallery.md"), "\n".join(page))
 
@@ -67,11 +75,17 @@ def output_markdown(output, folder, name):
     """The richest form of a cell's output. Images become files next to the page."""
     if output["output_type"] == "stream":
         return fenced("".join(output["text"]))
-    data = {kind: "".join(value) for kind, value in output.get("data", {}).items() if isinstance(value, (str, list))}
+    data = {
+        kind: "".join(value)
+        for kind, value in output.get("data", {}).items()
+        if isinstance(value, (str, list))
+    }
     for kind, suffix in (("image/svg+xml", "svg"), ("image/png", "png")):
         if kind in data:
             with open(os.path.join(folder, f"{name}.{suffix}"), "wb") as opened:
-                opened.write(data[kind].encode() if suffix == "svg" else base64.b64decode(data[kind]))
+                opened.write(
+                    data[kind].encode() if suffix == "svg" else base64.b64decode(data[kind])
+                )
             return f"![Output of the cell above]({name}.{suffix})\n"
     if "text/html" in data:
         return f"```````{{raw}} html\n{data['text/html']}\n```````\n"
@@ -87,7 +101,9 @@ def notebook_pages(source, executed):
     names = sorted(name for name in os.listdir(folder) if name.endswith(".ipynb"))
     for name in names:
         run = os.path.join(executed, name)
-        with open(run if os.path.exists(run) else os.path.join(folder, name), encoding="utf-8") as opened:
+        with open(
+            run if os.path.exists(run) else os.path.join(folder, name), encoding="utf-8"
+        ) as opened:
             cells = json.load(opened)["cells"]
         parts = []
         for k, cell in enumerate(cells):
@@ -96,10 +112,18 @@ def notebook_pages(source, executed):
                 parts.append(text + "\n")
                 continue
             parts.append(fenced(text, "python"))
-            parts += [output_markdown(each, folder, f"{name[:-6]}_{k}_{j}") for j, each in enumerate(cell["outputs"])]
+            parts += [
+                output_markdown(each, folder, f"{name[:-6]}_{k}_{j}")
+                for j, each in enumerate(cell["outputs"])
+            ]
         write(os.path.join(folder, name[:-6] + ".md"), "\n".join(parts))
-    write(os.path.join(folder, "index.md"), "# Notebooks\n\nFor users of Python: the notebooks of the folder "
-          "examples with their output.\n\n```{toctree}\n" + "\n".join(name[:-6] for name in names) + "\n```\n")
+    write(
+        os.path.join(folder, "index.md"),
+        "# Notebooks\n\nFor users of Python: the notebooks of the folder "
+        "examples with their output.\n\n```{toctree}\n"
+        + "\n".join(name[:-6] for name in names)
+        + "\n```\n",
+    )
 
 
 if __name__ == "__main__":

@@ -7,49 +7,80 @@ import english from "./src/texts.en.json" with {type: "json"};
 
 const pageTexts = english.page;
 
-/** Replaces {{name}} in the page by the English text of this name; translatePage() of texts.ts replaces it by another language. */
+/** Replaces {{name}} in the page by the English text of this name; translatePage() of texts.ts
+    replaces it by another language. */
 const texts = {
     name: "texts",
-    transformIndexHtml: {order: "pre", handler: (html) => html.replace(/\{\{(\w+)\}\}/g, (_, name) => {
-        if (!(name in pageTexts)) throw new Error(`index.html has {{${name}}}, but src/texts.en.json has no such text.`);
-        return pageTexts[name].replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/"/g, "&quot;");
-    })},
+    transformIndexHtml: {
+        order: "pre",
+        handler: (html) =>
+            html.replace(/\{\{(\w+)\}\}/g, (_, name) => {
+                if (!(name in pageTexts))
+                    throw new Error(
+                        `index.html has {{${name}}}, but src/texts.en.json has no such text.`,
+                    );
+                return pageTexts[name]
+                    .replace(/&/g, "&amp;")
+                    .replace(/</g, "&lt;")
+                    .replace(/"/g, "&quot;");
+            }),
+    },
 };
 
-/** Moves the script to the end, so that a slow connection shows the first picture before the engine has arrived. */
+/** Moves the script to the end, so that a slow connection shows the first picture before the engine
+    has arrived. */
 const late = {
     name: "late",
     enforce: "post",
     generateBundle: (_, bundle) => {
-        const page = bundle["index.html"], [script] = /<script type="module"[^]*?<\/script>/.exec(page.source);
-        page.source = page.source.replace(script, "").replace("</body>", () => `${script}\n</body>`);
+        const page = bundle["index.html"],
+            [script] = /<script type="module"[^]*?<\/script>/.exec(page.source);
+        page.source = page.source
+            .replace(script, "")
+            .replace("</body>", () => `${script}\n</body>`);
     },
 };
 
-/** Adds the Content-Security-Policy: the page runs its own script and engine only, and requests nothing. Its worker comes
- *  from a blob (as data: if the browser has none), the engine from data:. */
+/** Adds the Content-Security-Policy: the page runs its own script and engine only, and requests
+    nothing. Its worker comes from a blob (as data: if the browser has none), the engine from data:.
+    */
 const policy = {
     name: "policy",
     enforce: "post",
     generateBundle: (_, bundle) => {
         const page = bundle["index.html"];
         const hashes = [...page.source.matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map(
-            ([, script]) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`);
-        const rules = ["default-src 'none'", `script-src ${hashes.join(" ")} 'wasm-unsafe-eval'`, "worker-src blob: data:",
-                       "style-src 'unsafe-inline'", "font-src data:", "img-src data: blob:", "connect-src data:", "base-uri 'none'", "form-action 'none'"];
-        page.source = page.source.replace('<meta charset="utf-8">', (charset) =>
-            `${charset}\n<meta http-equiv="Content-Security-Policy" content="${rules.join("; ")}">`);
+            ([, script]) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`,
+        );
+        const rules = [
+            "default-src 'none'",
+            `script-src ${hashes.join(" ")} 'wasm-unsafe-eval'`,
+            "worker-src blob: data:",
+            "style-src 'unsafe-inline'",
+            "font-src data:",
+            "img-src data: blob:",
+            "connect-src data:",
+            "base-uri 'none'",
+            "form-action 'none'",
+        ];
+        page.source = page.source.replace(
+            '<meta charset="utf-8">',
+            (charset) =>
+                `${charset}\n<meta http-equiv="Content-Security-Policy" content="${rules.join("; ")}">`,
+        );
     },
 };
 
 const read = (name) => readFileSync(new URL(name, import.meta.url), "utf-8");
 
-/** The licences of the font and of the libraries in the engine, as a comment at the end of the page. */
+/** The licences of the font and of the libraries in the engine, as a comment at the end of the
+    page. */
 const notices = {
     name: "notices",
     enforce: "post",
     generateBundle: (_, bundle) => {
-        bundle["index.html"].source += `<!--\n${read("notices.txt")}\n${read("../LICENSES/OFL-1.1.txt")}-->\n`;
+        bundle["index.html"].source +=
+            `<!--\n${read("notices.txt")}\n${read("../LICENSES/OFL-1.1.txt")}-->\n`;
     },
 };
 
@@ -58,6 +89,10 @@ export default defineConfig({
     plugins: [texts, viteSingleFile(), late, policy, notices],
     assetsInclude: ["**/*.wasm.gz"],
     worker: {format: "iife"},
-    build: {outDir: "../build/lab", emptyOutDir: true, assetsInlineLimit: 100_000_000,
-            target: "es2022"},
+    build: {
+        outDir: "../build/lab",
+        emptyOutDir: true,
+        assetsInlineLimit: 100_000_000,
+        target: "es2022",
+    },
 });

@@ -1,6 +1,6 @@
-"""Which contacts turn the cluster? The torque budget against N; whether opposite spins of touching discs ("gears") or
-the slip at the wall predict the rotation; and whether the direction still changes if one kind of contact has no
-friction."""
+"""Which contacts turn the cluster? The torque budget against N; whether opposite spins of touching
+discs ("gears") or the slip at the wall predict the rotation; and whether the direction still
+changes if one kind of contact has no friction."""
 
 import numpy as np
 import scipy.stats
@@ -18,27 +18,67 @@ from study import Point
 
 def mechanism_run(settings, discs, mu):
     """Discs with the paper's parameters except for μ."""
-    return with_periods(paper_run(settings, Friction("", "", mu, mu), discs), lengths(settings, (20, 2), (80, 4)))
+    return with_periods(
+        paper_run(settings, Friction("", "", mu, mu), discs), lengths(settings, (20, 2), (80, 4))
+    )
 
 
 def mechanism_point(settings, name, run, cells, measure=()):
-    return Point(settings, f"{name}_{length_of(run)}", settings.chapter_seeds, run, measure, cells=cells)
+    return Point(
+        settings, f"{name}_{length_of(run)}", settings.chapter_seeds, run, measure, cells=cells
+    )
 
 
 # --- Torques --------------------------------------------------------------------------------------
 
-TORQUES = ("wall_normal", "wall_tangential", "transfer", "wall_on_spins", "discs_on_spins", "wall_about_centre",
-           "container_torque", "wall_sticking", "wall_sliding", "transfer_sticking", "transfer_sliding",
-           "wall_normal_pinned", "wall_normal_loose", "wall_tangential_pinned", "wall_tangential_loose",
-           "transfer_pinned", "transfer_mixed", "transfer_loose")
-SUMS = (("wall_normal", "wall, normal"), ("wall_tangential", "wall, friction"), ("transfer", "between discs"))
-ZONES = (("transfer_pinned", "two pinned"), ("transfer_mixed", "pinned and loose"), ("transfer_loose", "two loose"))
+TORQUES = (
+    "wall_normal",
+    "wall_tangential",
+    "transfer",
+    "wall_on_spins",
+    "discs_on_spins",
+    "wall_about_centre",
+    "container_torque",
+    "wall_sticking",
+    "wall_sliding",
+    "transfer_sticking",
+    "transfer_sliding",
+    "wall_normal_pinned",
+    "wall_normal_loose",
+    "wall_tangential_pinned",
+    "wall_tangential_loose",
+    "transfer_pinned",
+    "transfer_mixed",
+    "transfer_loose",
+)
+SUMS = (
+    ("wall_normal", "wall, normal"),
+    ("wall_tangential", "wall, friction"),
+    ("transfer", "between discs"),
+)
+ZONES = (
+    ("transfer_pinned", "two pinned"),
+    ("transfer_mixed", "pinned and loose"),
+    ("transfer_loose", "two loose"),
+)
 
 
 def torque_points(settings):
-    numbers = (20, 32, 40, 48) if settings.quick else (8, 12, 16, 20, 24, 28, 32, 34, 36, 38, 40, 42, 45, 48, 52)
-    return [mechanism_point(settings, f"torque_N{n}", mechanism_run(settings, n, 1), {"curve": "", "mu": 1, "discs": n},
-                            ["torque"]) for n in numbers]
+    numbers = (
+        (20, 32, 40, 48)
+        if settings.quick
+        else (8, 12, 16, 20, 24, 28, 32, 34, 36, 38, 40, 42, 45, 48, 52)
+    )
+    return [
+        mechanism_point(
+            settings,
+            f"torque_N{n}",
+            mechanism_run(settings, n, 1),
+            {"curve": "", "mu": 1, "discs": n},
+            ["torque"],
+        )
+        for n in numbers
+    ]
 
 
 def torque_table(points, settings):
@@ -50,12 +90,17 @@ def torque_table(points, settings):
             words.append(f"{name} at {zero} ({'to negative' if falls else 'to positive'})")
     zero, _ = last_zero(curves_by(points, "curve")[0].points)
     return {"": rows_without_curve(points, measured)}, [
-        f"The rotation changes sign at {zero or 'no certain N'}. {len(words)} of {len(TORQUES)} torques change sign "
-        f"with N: {'; '.join(words) or 'none'}."]
+        f"The rotation changes sign at {zero or 'no certain N'}. {len(words)} of {len(TORQUES)} "
+        "torques change sign "
+        f"with N: {'; '.join(words) or 'none'}."
+    ]
 
 
 def rows_without_curve(points, measured=()):
-    return [{name: value for name, value in row.items() if name != "curve"} for row in rows_of(points, measured)]
+    return [
+        {name: value for name, value in row.items() if name != "curve"}
+        for row in rows_of(points, measured)
+    ]
 
 
 def draw_torque(table):
@@ -78,28 +123,43 @@ def draw_torque(table):
 
 # --- Gears or slip --------------------------------------------------------------------------------
 
-PREDICTORS = {"frustration.correlation_by_impulse": "spins of strong contacts",
-              "frustration.spin_correlation": "spins of touching discs",
-              "slip.resident": "slip parameter of the resident discs",
-              "frustration.wall_sticking": "share of sticking contacts at the wall",
-              "frustration.resident_spin": "spin of the resident discs"}
-PANELS = (("correlation_by_impulse", "spin correlation, weighted with impulse"),
-          ("spin_correlation", "spin correlation of touching discs"),
-          ("resident", "slip parameter, resident discs"),
-          ("wall_sticking", "share of sticking wall contacts"))
+PREDICTORS = {
+    "frustration.correlation_by_impulse": "spins of strong contacts",
+    "frustration.spin_correlation": "spins of touching discs",
+    "slip.resident": "slip parameter of the resident discs",
+    "frustration.wall_sticking": "share of sticking contacts at the wall",
+    "frustration.resident_spin": "spin of the resident discs",
+}
+PANELS = (
+    ("correlation_by_impulse", "spin correlation, weighted with impulse"),
+    ("spin_correlation", "spin correlation of touching discs"),
+    ("resident", "slip parameter, resident discs"),
+    ("wall_sticking", "share of sticking wall contacts"),
+)
 
 
 def gears_points(settings):
-    return [mechanism_point(settings, f"gears_mu{text(mu)}_N{n}", mechanism_run(settings, n, mu),
-                            {"curve": f"μ = {text(mu)}", "mu": mu, "discs": n}, ["slip", "frustration"])
-            for mu in ((0.1, 1) if settings.quick else (0.05, 0.1, 0.3, 1, 3))
-            for n in ((22, 34, 46) if settings.quick else (16, 22, 28, 34, 40, 46))]
+    return [
+        mechanism_point(
+            settings,
+            f"gears_mu{text(mu)}_N{n}",
+            mechanism_run(settings, n, mu),
+            {"curve": f"μ = {text(mu)}", "mu": mu, "discs": n},
+            ["slip", "frustration"],
+        )
+        for mu in ((0.1, 1) if settings.quick else (0.05, 0.1, 0.3, 1, 3))
+        for n in ((22, 34, 46) if settings.quick else (16, 22, 28, 34, 40, 46))
+    ]
 
 
 def gears_table(points, settings):
-    rows = np.array([[number(at(p.result, "rotation", "mean_by_time", "mean"))] +
-                     [number(at(p.result, "measured", *name.split("."), "mean")) for name in PREDICTORS]
-                     for p in points])
+    rows = np.array(
+        [
+            [number(at(p.result, "rotation", "mean_by_time", "mean"))]
+            + [number(at(p.result, "measured", *name.split("."), "mean")) for name in PREDICTORS]
+            for p in points
+        ]
+    )
     rows = rows[np.isfinite(rows).all(axis=1)]
     rotation, predictors = rows[:, 0], rows[:, 1:].T
 
@@ -109,15 +169,33 @@ def gears_table(points, settings):
     table, words = [], []
     for p, (name, meaning) in enumerate(PREDICTORS.items()):
         rho, rho_error = jackknife(len(rows), rank(p))
-        square, square_error = jackknife(len(rows), lambda k: scipy.stats.pearsonr(predictors[p][k], rotation[k])[0] ** 2)
-        table.append({"predictor": name, "points": len(rows), "rank_correlation": rho, "rank_correlation_error": rho_error,
-                      "r_squared": square, "r_squared_error": square_error})
+        square, square_error = jackknife(
+            len(rows), lambda k: scipy.stats.pearsonr(predictors[p][k], rotation[k])[0] ** 2
+        )
+        table.append(
+            {
+                "predictor": name,
+                "points": len(rows),
+                "rank_correlation": rho,
+                "rank_correlation_error": rho_error,
+                "r_squared": square,
+                "r_squared_error": square_error,
+            }
+        )
         words.append(f"{meaning} {with_error(rho, rho_error)}")
     better, error = jackknife(len(rows), lambda k: abs(rank(0)(k)) - abs(rank(2)(k)))
-    how = "better than" if better > 2 * error else "worse than" if better < -2 * error else "about as well as"
+    how = (
+        "better than"
+        if better > 2 * error
+        else "worse than"
+        if better < -2 * error
+        else "about as well as"
+    )
     return {"": rows_without_curve(points, PREDICTORS), "_ranks": table}, [
         f"Rank correlation with ϖ over {len(rows)} points (N, μ): {'; '.join(words)}.",
-        f"Spins of strong contacts predict ϖ {how} the slip parameter: |ρ| differs by {with_error(better, error)}."]
+        f"Spins of strong contacts predict ϖ {how} the slip parameter: |ρ| differs by "
+        f"{with_error(better, error)}.",
+    ]
 
 
 def draw_gears(table):
@@ -127,10 +205,19 @@ def draw_gears(table):
     for axes, (name, words) in zip(panels.flat, PANELS):
         style.zero_line(axes)
         for mu, here, look in style.groups(rows, "mu"):
-            style.curve(axes, here, name, "mean_by_time", linestyle="none", label=rf"$\mu = {mu:g}$", **look)
+            style.curve(
+                axes, here, name, "mean_by_time", linestyle="none", label=rf"$\mu = {mu:g}$", **look
+            )
         rank = ranks[name]
-        axes.text(0.98, 0.55, rf"$\rho$ = {rank['rank_correlation']:.2f} ± {rank['rank_correlation_error']:.2f}"
-                  .replace("-", "−"), transform=axes.transAxes, ha="right")
+        axes.text(
+            0.98,
+            0.55,
+            rf"$\rho$ = {rank['rank_correlation']:.2f} ± {rank['rank_correlation_error']:.2f}".replace(
+                "-", "−"
+            ),
+            transform=axes.transAxes,
+            ha="right",
+        )
         axes.set(xlabel=words, ylabel=r"rotation $\varpi/\Omega$")
     style.legend(panels[0, 0], ncol=5)
     style.save(drawing, table)
@@ -138,10 +225,12 @@ def draw_gears(table):
 
 # --- One kind of contact without friction ---------------------------------------------------------
 
-SMOOTH_CONTACTS = {"none": ("friction everywhere", "friction everywhere"),
-                   "wall": ("no friction with the wall", "none with the wall"),
-                   "boundary": ("no friction between discs at the wall", "none between discs at the wall"),
-                   "bulk": ("no friction between other discs", "none between other discs")}
+SMOOTH_CONTACTS = {
+    "none": ("friction everywhere", "friction everywhere"),
+    "wall": ("no friction with the wall", "none with the wall"),
+    "boundary": ("no friction between discs at the wall", "none between discs at the wall"),
+    "bulk": ("no friction between other discs", "none between other discs"),
+}
 
 
 def contacts_points(settings):
@@ -152,8 +241,11 @@ def contacts_points(settings):
             run = mechanism_run(settings, n, 1) | ({} if kind == "none" else {"frictionless": kind})
             if kind == "wall":
                 run["mu_wall"] = 0
-            points.append(mechanism_point(settings, f"contacts_{kind}_N{n}", run,
-                                          {"frictionless": kind, "discs": n}))
+            points.append(
+                mechanism_point(
+                    settings, f"contacts_{kind}_N{n}", run, {"frictionless": kind, "discs": n}
+                )
+            )
     return points
 
 
@@ -164,8 +256,10 @@ def contacts_table(points, settings):
         lowest = lowest_of(curve.points)
         findings.append(
             f"{SMOOTH_CONTACTS[curve.name][0]}: "
-            f"{f'the direction changes at {zero}' if zero else 'no certain change of direction'}; lowest ϖ/Ω = "
-            f"{f'{with_error(*lowest[1:])} at N = {lowest[0]}' if lowest else 'n/a at N = n/a'}.")
+            f"{f'the direction changes at {zero}' if zero else 'no certain change of direction'}; "
+            "lowest ϖ/Ω = "
+            f"{f'{with_error(*lowest[1:])} at N = {lowest[0]}' if lowest else 'n/a at N = n/a'}."
+        )
     return {"": rows_of(points)}, findings
 
 
@@ -174,17 +268,44 @@ def draw_contacts(table):
     drawing, axes = style.figure(1.4 * style.COLUMN, 2.9)
     style.zero_line(axes)
     for k, (kind, (_, words)) in enumerate(SMOOTH_CONTACTS.items()):
-        style.curve(axes, style.select(rows, frictionless=kind), "discs", "mean_by_time", label=words,
-                    color=style.CYCLE[k], marker=style.MARKERS[k])
+        style.curve(
+            axes,
+            style.select(rows, frictionless=kind),
+            "discs",
+            "mean_by_time",
+            label=words,
+            color=style.CYCLE[k],
+            marker=style.MARKERS[k],
+        )
     style.rotation_axes(axes)
     style.fine_near_zero(axes, style.column(rows, "mean_by_time"))
     style.legend(axes, ncol=2)
     style.save(drawing, table)
 
 
-FIGURES = [Figure("torque", "chapters", "chapter: the torques on the cluster against N", torque_points, torque_table,
-                  draw_torque),
-           Figure("gears", "chapters", "chapter: do gears or slip predict the rotation?", gears_points, gears_table,
-                  draw_gears),
-           Figure("contacts", "chapters", "chapter: one kind of contact without friction", contacts_points,
-                  contacts_table, draw_contacts)]
+FIGURES = [
+    Figure(
+        "torque",
+        "chapters",
+        "chapter: the torques on the cluster against N",
+        torque_points,
+        torque_table,
+        draw_torque,
+    ),
+    Figure(
+        "gears",
+        "chapters",
+        "chapter: do gears or slip predict the rotation?",
+        gears_points,
+        gears_table,
+        draw_gears,
+    ),
+    Figure(
+        "contacts",
+        "chapters",
+        "chapter: one kind of contact without friction",
+        contacts_points,
+        contacts_table,
+        draw_contacts,
+    ),
+]

@@ -1,8 +1,9 @@
 """Against published experiments with spheres in a swirled dish.
 
-Scherer, Kötter, Markus, Goles and Rehberg (Phys. Rev. E 61, 4069, 2000) report that the sign of dE/dN, with E the mean
-kinetic energy of a particle, distinguishes rotation (zero), reptation, which is counterrotation (positive), and the
-appearance of concentric rings (negative), and that particles of a large cluster follow hypocycloids."""
+Scherer, Kötter, Markus, Goles and Rehberg (Phys. Rev. E 61, 4069, 2000) report that the sign of
+dE/dN, with E the mean kinetic energy of a particle, distinguishes rotation (zero), reptation, which
+is counterrotation (positive), and the appearance of concentric rings (negative), and that particles
+of a large cluster follow hypocycloids."""
 
 import math
 
@@ -19,27 +20,52 @@ from study import Point
 from swirled_state import RINGS_PER_RADIUS, swirled_run
 
 # Name, words, parameters.
-SETTINGS = (("experiment", "spheres, A/R = 0.451, μ = 0.33", {"preset": "experiment"}),
-            ("discs", "discs, A/R = 0.22, μ = 1", {}))
+SETTINGS = (
+    ("experiment", "spheres, A/R = 0.451, μ = 0.33", {"preset": "experiment"}),
+    ("discs", "discs, A/R = 0.22, μ = 1", {}),
+)
 QUANTITIES = ("energy", "spin_energy", "rotation", "path_rotation", "path_distance")
 
 
 def points(settings):
     made = []
     for name, words, parameters in SETTINGS:
-        for n in (8, 20, 32, 44, 52) if settings.quick else (5, 8, 11, 14, 20, 26, 32, 38, 44, 48, 52, 54):
+        for n in (
+            (8, 20, 32, 44, 52)
+            if settings.quick
+            else (5, 8, 11, 14, 20, 26, 32, 38, 44, 48, 52, 54)
+        ):
             run = {**parameters, "discs": n, **lengths(settings, (20, 2), (60, 8))}
             known = resolved(run)
-            made.append(Point(settings, f"scherer_{name}_N{n}_{length_of(run)}", settings.chapter_seeds, run,
-                              work=swirled_run, cells={"setting": name, "words": words, "amplitude": known["amplitude"],
-                                                       "period": known["period"], "discs": n}))
+            made.append(
+                Point(
+                    settings,
+                    f"scherer_{name}_N{n}_{length_of(run)}",
+                    settings.chapter_seeds,
+                    run,
+                    work=swirled_run,
+                    cells={
+                        "setting": name,
+                        "words": words,
+                        "amplitude": known["amplitude"],
+                        "period": known["period"],
+                        "discs": n,
+                    },
+                )
+            )
     return made
 
 
 def row_of(point):
     """The means over the seeds; E = ⟨v²⟩/v_C², with the speed v_C of the container."""
-    runs = [run | {name: run[name.replace("energy", "square")] / run["speed_square"] for name in ("energy", "spin_energy")}
-            for run in point.runs]
+    runs = [
+        run
+        | {
+            name: run[name.replace("energy", "square")] / run["speed_square"]
+            for name in ("energy", "spin_energy")
+        }
+        for run in point.runs
+    ]
     return {**point.cells, **means(runs, QUANTITIES)}
 
 
@@ -50,7 +76,9 @@ def add_slopes(rows):
         if 0 < k < len(rows) - 1:
             a, b = rows[k - 1], rows[k + 1]
             row["slope"] = (b["energy"] - a["energy"]) / (b["discs"] - a["discs"])
-            row["slope_error"] = math.hypot(a["energy_error"], b["energy_error"]) / (b["discs"] - a["discs"])
+            row["slope_error"] = math.hypot(a["energy_error"], b["energy_error"]) / (
+                b["discs"] - a["discs"]
+            )
 
 
 def sign(row, name):
@@ -61,9 +89,13 @@ def sentence(words, rows):
     def count(rotation):
         slopes = [sign(row, "slope") for row in rows[1:-1] if sign(row, "rotation") == rotation]
         return f"{slopes.count(1)} of {len(slopes)}"
+
     falls = [row["discs"] for row in rows[1:-1] if sign(row, "slope") < 0]
-    return (f"{words}: dE/dN is certainly positive at {count(1)} N with rotation and at {count(-1)} with counterrotation; "
-            f"it is certainly negative at N = {listed(falls) or 'none'}.")
+    return (
+        f"{words}: dE/dN is certainly positive at {count(1)} N with rotation and at {count(-1)} "
+        "with counterrotation; "
+        f"it is certainly negative at N = {listed(falls) or 'none'}."
+    )
 
 
 def rings_of(point):
@@ -71,9 +103,15 @@ def rings_of(point):
     if not point.runs:
         return []
     names = ("about_centre_of_mass", "about_container")
-    return [{"setting": point.cells["setting"], "discs": point.cells["discs"], "distance": (b + 0.5) / RINGS_PER_RADIUS,
-             **means([{name: run[name][b] for name in names} for run in point.runs], names)}
-            for b in range(len(point.runs[0][names[0]]))]
+    return [
+        {
+            "setting": point.cells["setting"],
+            "discs": point.cells["discs"],
+            "distance": (b + 0.5) / RINGS_PER_RADIUS,
+            **means([{name: run[name][b] for name in names} for run in point.runs], names),
+        }
+        for b in range(len(point.runs[0][names[0]]))
+    ]
 
 
 def table(points, settings):
@@ -96,13 +134,23 @@ def against_number(axes, rows, quantity, settings):
         here = sorted(tables.select(rows, setting=setting), key=lambda row: row["discs"])
         style.curve(axes, here, "discs", quantity, linewidth=0.8, **style.look_of(k))
         against = [row for row in here if sign(row, "rotation") < 0]
-        axes.plot(style.column(against, "discs"), style.column(against, quantity), linestyle="none", markerfacecolor="white",
-                  zorder=3, **style.look_of(k))
+        axes.plot(
+            style.column(against, "discs"),
+            style.column(against, quantity),
+            linestyle="none",
+            markerfacecolor="white",
+            zorder=3,
+            **style.look_of(k),
+        )
 
 
 def draw_rings(axes, rows, numbers):
     for k, number in enumerate(numbers):
-        here = [row for row in tables.select(rows, setting="experiment", discs=number) if row["distance"] < 9]
+        here = [
+            row
+            for row in tables.select(rows, setting="experiment", discs=number)
+            if row["distance"] < 9
+        ]
         distance = np.array(style.column(here, "distance"))
         number_at = 2 * np.pi * distance * np.array(style.column(here, "about_centre_of_mass"))
         axes.plot(distance, number_at + SHIFT * k, color=style.CYCLE[k])
@@ -129,13 +177,28 @@ def draw_scherer(table):
     panels[1, 1].set_ylim(bottom=0)
     for axes in (panels[0, 0], panels[0, 1], panels[1, 1]):
         axes.set_xlabel("number of particles $N$")
-    handles = [panels[0, 0].plot([], [], label=tables.select(rows, setting=setting)[0]["words"], **style.look_of(k))[0]
-               for k, setting in enumerate(settings)]
-    handles.append(panels[0, 0].plot([], [], "o", color=style.GREY, markerfacecolor="white",
-                                     label="open: counterrotates")[0])
+    handles = [
+        panels[0, 0].plot(
+            [], [], label=tables.select(rows, setting=setting)[0]["words"], **style.look_of(k)
+        )[0]
+        for k, setting in enumerate(settings)
+    ]
+    handles.append(
+        panels[0, 0].plot(
+            [], [], "o", color=style.GREY, markerfacecolor="white", label="open: counterrotates"
+        )[0]
+    )
     style.legend_of_all(drawing, handles, ncol=4)
     style.save(drawing, table)
 
 
-FIGURES = [Figure("scherer", "chapters", "chapter: energy, rings and paths of swirled spheres", points, table,
-                  draw_scherer)]
+FIGURES = [
+    Figure(
+        "scherer",
+        "chapters",
+        "chapter: energy, rings and paths of swirled spheres",
+        points,
+        table,
+        draw_scherer,
+    )
+]

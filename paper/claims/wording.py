@@ -7,7 +7,8 @@ from verdicts import HOLDS, Value, largest_reversal, measured, rises
 
 from . import thresholds as size
 
-# The found text of a claim has the value that is judged first, then, after this, those of other settings.
+# The found text of a claim has the value that is judged first, then, after this, those of other
+# settings.
 ALSO = " For comparison: "
 SHORTEST, LONGEST = 40, 150  # characters of a headline
 
@@ -15,8 +16,8 @@ SHORTEST, LONGEST = 40, 150  # characters of a headline
 def number(mean, error=math.nan):
     """1.234 ± 0.012, with as many digits as the error supports; n/a if the mean is unknown.
 
-    This is swirl.with_error() for claims, which are judged without the module; tests/python/paper_test.py compares them.
-    """
+    This is swirl.with_error() for claims, which are judged without the module;
+    tests/python/paper_test.py compares them."""
     if isinstance(mean, Value):
         mean, error = mean.mean, mean.error
     if mean is None or not math.isfinite(mean):
@@ -28,7 +29,7 @@ def number(mean, error=math.nan):
     else:
         magnitude = math.floor(math.log10(error))
         # An error that starts with 1 has two digits, others have one.
-        digits = min(12, max(0, (1 if error / 10.0 ** magnitude < 1.95 else 0) - magnitude))
+        digits = min(12, max(0, (1 if error / 10.0**magnitude < 1.95 else 0) - magnitude))
         text = f"{mean:.{digits}f} ± {error:.{digits}f}"
     return f"−{text[1:]}" if text.startswith("-") else text
 
@@ -58,8 +59,8 @@ def lowest_to_highest(rows, name):
 
 
 def monotonic(rows, name, falling=False, least=None):
-    """Judges if a curve rises (or falls) with N by `least`, by default size.LEAST_CHANGE of its first value. Returns
-    the judgement and a text on the largest reversal."""
+    """Judges if a curve rises (or falls) with N by `least`, by default size.LEAST_CHANGE of its
+    first value. Returns the judgement and a text on the largest reversal."""
     rows = known(rows, name)
     found = values(rows, name)
     rising = [-v for v in found] if falling else found
@@ -69,8 +70,10 @@ def monotonic(rows, name, falling=False, least=None):
     if reversal is None or judgement.verdict == HOLDS:
         return judgement, ""
     first, last = (rows[k] for k in reversal)
-    return judgement, (f", but it {'rises' if falling else 'falls'} from {value_at(first, name)} to "
-                       f"{value_at(last, name)}")
+    return judgement, (
+        f", but it {'rises' if falling else 'falls'} from {value_at(first, name)} to "
+        f"{value_at(last, name)}"
+    )
 
 
 def count(judgements, verdict=HOLDS):
@@ -78,11 +81,18 @@ def count(judgements, verdict=HOLDS):
 
 
 def headline(found):
-    """The decisive numbers of what was found: the beginning, up to whole clauses of about LONGEST characters."""
+    """The decisive numbers of what was found: the beginning, up to whole clauses of about LONGEST
+    characters."""
     text = re.sub(r"^(?:Smooth spheres|Discs with μ = 1)[:,] ", "", found.split(ALSO)[0])
-    text = re.sub(r" \((?:over all N|required|more than|rotating|rotation|nearer|opposite|no order|loose|quickly|little|prevented|"
-                  r"to the left|similar|near|5% of|by more|earlier|the same|often|slower|a couple|a rise|as fast|no spinning|around|"
-                  r"it blows|cannot|rigid|several|qualitatively|layers|top left|within \d)[^()]*\)", "", text)
+    text = re.sub(
+        r" \((?:over all N|required|more than|rotating|rotation|nearer|opposite|no "
+        r"order|loose|quickly|little|prevented|"
+        r"to the left|similar|near|5% of|by more|earlier|the same|often|slower|a couple|a rise|as "
+        r"fast|no spinning|around|"
+        r"it blows|cannot|rigid|several|qualitatively|layers|top left|within \d)[^()]*\)",
+        "",
+        text,
+    )
     clauses = re.split(r"(?<=; )|(?<=\. )(?=[A-Z])", text)
     kept = clauses[0]
     for clause in clauses[1:]:

@@ -1,4 +1,5 @@
-"""Figures 2b and 2c: density of the discs in the M-frame, and their velocity relative to the container."""
+"""Figures 2b and 2c: density of the discs in the M-frame, and their velocity relative to the
+container."""
 
 import style
 from combine import failed, steadiness
@@ -7,12 +8,27 @@ from paper_parameters import AMPLITUDES, COUNTERROTATING_N, ROTATING_N
 from runs import HIGH, SMOOTH, measured_point
 
 LEAST_SHARE = 2e-4  # of all visits: cells with fewer have no arrow
-COLUMNS = ("setting", "map", "discs", "steady_state", "x", "y", "density", "density_error", "u_x", "u_x_error", "u_y",
-           "u_y_error", "visits")
+COLUMNS = (
+    "setting",
+    "map",
+    "discs",
+    "steady_state",
+    "x",
+    "y",
+    "density",
+    "density_error",
+    "u_x",
+    "u_x_error",
+    "u_y",
+    "u_y_error",
+    "visits",
+)
 
 
 def points_at(discs):
-    return lambda settings: [measured_point(settings, friction, discs) for friction in (HIGH, SMOOTH)]
+    return lambda settings: [
+        measured_point(settings, friction, discs) for friction in (HIGH, SMOOTH)
+    ]
 
 
 def table(points, settings):
@@ -23,8 +39,17 @@ def table(points, settings):
             continue
         for name in ("density", "flow"):
             found = point.result["measured"][name]
-            names = {"density": "by_time", "density_error": "by_time_error"} if name == "density" else {}
-            first = dict(zip(COLUMNS, (point.cells["setting"], name, point.cells["discs"], steadiness(point.result))))
+            names = (
+                {"density": "by_time", "density_error": "by_time_error"}
+                if name == "density"
+                else {}
+            )
+            first = dict(
+                zip(
+                    COLUMNS,
+                    (point.cells["setting"], name, point.cells["discs"], steadiness(point.result)),
+                )
+            )
             shown = COLUMNS[4:8] if name == "density" else (*COLUMNS[4:6], *COLUMNS[8:])
             for cells in zip(*(found[names.get(column, column)] for column in shown)):
                 rows.append({**dict.fromkeys(COLUMNS), **first, **dict(zip(shown, cells))})
@@ -34,8 +59,12 @@ def table(points, settings):
 def draw(table):
     rows = style.read(table)
     settings = [name for name in style.LOOKS if style.select(rows, setting=name)]
-    drawing, panels = style.figure(width=style.PAGE if len(settings) > 1 else style.COLUMN, height=3.0,
-                                   ncols=len(settings), squeeze=False)
+    drawing, panels = style.figure(
+        width=style.PAGE if len(settings) > 1 else style.COLUMN,
+        height=3.0,
+        ncols=len(settings),
+        squeeze=False,
+    )
     densest = max(row["density"] for row in style.select(rows, map="density"))
     for axes, setting in zip(panels[0], settings):
         density = style.select(rows, map="density", setting=setting)
@@ -54,6 +83,21 @@ def draw(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("2b", "paper", "density and flow of a rotating cluster, N = 28", points_at(ROTATING_N), table, draw),
-           Figure("2c", "paper", "density and flow of a counterrotating cluster, N = 48", points_at(COUNTERROTATING_N),
-                  table, draw)]
+FIGURES = [
+    Figure(
+        "2b",
+        "paper",
+        "density and flow of a rotating cluster, N = 28",
+        points_at(ROTATING_N),
+        table,
+        draw,
+    ),
+    Figure(
+        "2c",
+        "paper",
+        "density and flow of a counterrotating cluster, N = 48",
+        points_at(COUNTERROTATING_N),
+        table,
+        draw,
+    ),
+]

@@ -1,20 +1,29 @@
-"""Figures 4a to 4c, smooth and rough, against the number of particles. 4a: the slip parameter of pinned particles. 4b: the
-spin of particles at the wall; the correlation of the spins of touching particles, in triangles and outside of them; and
-the share of the contacts that belong to a triangle. 4c: rotation of the cluster."""
+"""Figures 4a to 4c, smooth and rough, against the number of particles. 4a: the slip parameter of
+pinned particles. 4b: the spin of particles at the wall; the correlation of the spins of touching
+particles, in triangles and outside of them; and the share of the contacts that belong to a
+triangle. 4c: rotation of the cluster."""
 
 import style
 from against_n import against_n
 from figure import Figure
 from runs import HALF, HIGH, LOW, ROUGH, SMOOTH
 
-SLIPS = (("pinned_region", "pinned (SI)"), ("slip_resident", "resident at the wall"), ("cluster", "all"))
-SLIP_WORDS = {"slip.pinned_region": "slip parameter of all discs pinned by the SI's criterion",
-         "slip.resident": "slip parameter of discs resident at the wall"}
+SLIPS = (
+    ("pinned_region", "pinned (SI)"),
+    ("slip_resident", "resident at the wall"),
+    ("cluster", "all"),
+)
+SLIP_WORDS = {
+    "slip.pinned_region": "slip parameter of all discs pinned by the SI's criterion",
+    "slip.resident": "slip parameter of discs resident at the wall",
+}
 
-SPINS = (("resident_spin", "spin at the wall\n" r"$\langle|\omega_i|\rangle/\Omega$"),
-          ("chain_correlation", "spin correlation,\ncontacts in no triangle"),
-          ("triangle_correlation", "spin correlation,\ncontacts in triangles"),
-          ("triangles", "share of contacts\nin triangles"))
+SPINS = (
+    ("resident_spin", "spin at the wall\n" r"$\langle|\omega_i|\rangle/\Omega$"),
+    ("chain_correlation", "spin correlation,\ncontacts in no triangle"),
+    ("triangle_correlation", "spin correlation,\ncontacts in triangles"),
+    ("triangles", "share of contacts\nin triangles"),
+)
 SHOWN = ("smooth", "rough", "high")
 QUANTITIES = """frustration.wall_spin frustration.pinned_wall_spin frustration.resident_spin frustration.spin_correlation
     frustration.pinned_correlation frustration.resident_correlation frustration.along_wall
@@ -23,11 +32,15 @@ QUANTITIES = """frustration.wall_spin frustration.pinned_wall_spin frustration.r
     order.pinned=psi6_pinned order.resident=psi6_resident order.six order.six_pinned collisions.disc_disc_rate
     collisions.disc_wall_rate rolling.rolling_share rolling.wall_rolling_share rolling.floor_slip
     rolling.contact_correlation rolling.vertical_share rolling.vertical_power"""
-SPIN_WORDS = {"frustration.pinned_wall_spin": "spin of discs at the wall that are pinned by the SI's criterion, in Ω",
-         "frustration.resident_spin": "spin of discs resident at the wall, in Ω",
-         "frustration.spin_correlation": "spin correlation of neighbours",
-         "frustration.correlation_by_impulse": "spin correlation of colliding discs, weighted by impulse",
-         "frustration.triangles": "share of contacts in triangles"}
+SPIN_WORDS = {
+    "frustration.pinned_wall_spin": "spin of discs at the wall that are pinned by the SI's "
+    "criterion, in Ω",
+    "frustration.resident_spin": "spin of discs resident at the wall, in Ω",
+    "frustration.spin_correlation": "spin correlation of neighbours",
+    "frustration.correlation_by_impulse": "spin correlation of colliding discs, weighted by "
+    "impulse",
+    "frustration.triangles": "share of contacts in triangles",
+}
 
 
 def draw_slip(table):
@@ -64,10 +77,30 @@ def draw_rotation(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("4a", "paper", "slip parameter of pinned particles, smooth and rough",
-                  *against_n((LOW, HIGH, SMOOTH, ROUGH, HALF),
-                             "slip.cluster slip.pinned_region slip.resident=slip_resident", SLIP_WORDS), draw_slip),
-           Figure("4b", "paper", "spin of pinned particles at the wall, and frustration",
-                  *against_n((HIGH, SMOOTH, ROUGH, HALF), QUANTITIES, SPIN_WORDS), draw_spins),
-           Figure("4c", "paper", "rotation against N, smooth and rough",
-                  *against_n((LOW, HIGH, SMOOTH, ROUGH, HALF), with_crossings=True), draw_rotation)]
+FIGURES = [
+    Figure(
+        "4a",
+        "paper",
+        "slip parameter of pinned particles, smooth and rough",
+        *against_n(
+            (LOW, HIGH, SMOOTH, ROUGH, HALF),
+            "slip.cluster slip.pinned_region slip.resident=slip_resident",
+            SLIP_WORDS,
+        ),
+        draw_slip,
+    ),
+    Figure(
+        "4b",
+        "paper",
+        "spin of pinned particles at the wall, and frustration",
+        *against_n((HIGH, SMOOTH, ROUGH, HALF), QUANTITIES, SPIN_WORDS),
+        draw_spins,
+    ),
+    Figure(
+        "4c",
+        "paper",
+        "rotation against N, smooth and rough",
+        *against_n((LOW, HIGH, SMOOTH, ROUGH, HALF), with_crossings=True),
+        draw_rotation,
+    ),
+]

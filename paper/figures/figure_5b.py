@@ -9,8 +9,21 @@ from combine import at, number, over_seeds, too_short_to_average
 from curves import curve_tables, curves_by, lowest_of, with_error
 from figure import Figure
 from paper_parameters import LAST_N
-from runs import (FRICTION_OF_5B, HIGH, NO_DISC, NO_WALL, cells_of, dense_point, length_of, numbers_beyond,
-                  numbers_of_discs, paper_run, point, settled_run, sparse_numbers)
+from runs import (
+    FRICTION_OF_5B,
+    HIGH,
+    NO_DISC,
+    NO_WALL,
+    cells_of,
+    dense_point,
+    length_of,
+    numbers_beyond,
+    numbers_of_discs,
+    paper_run,
+    point,
+    settled_run,
+    sparse_numbers,
+)
 from study import Point
 
 WITHOUT = {friction.name: friction for friction in (NO_WALL, NO_DISC)}
@@ -25,11 +38,17 @@ CURVES = [
 
 
 def points(settings):
-    """Beyond the paper's last N: whether ϖ rises again after its minimum (high friction), and whether a curve that does
-    not cross up to there crosses later."""
-    return ([point(settings, friction, discs) for friction in FRICTION_OF_5B for discs in numbers_of_discs(settings)] +
-            [(dense_point if friction == HIGH else point)(settings, friction, discs)
-             for friction in FRICTION_OF_5B for discs in numbers_beyond(settings)])
+    """Beyond the paper's last N: whether ϖ rises again after its minimum (high friction), and
+    whether a curve that does not cross up to there crosses later."""
+    return [
+        point(settings, friction, discs)
+        for friction in FRICTION_OF_5B
+        for discs in numbers_of_discs(settings)
+    ] + [
+        (dense_point if friction == HIGH else point)(settings, friction, discs)
+        for friction in FRICTION_OF_5B
+        for discs in numbers_beyond(settings)
+    ]
 
 
 def steady_points(settings):
@@ -37,21 +56,44 @@ def steady_points(settings):
     for friction in FRICTION_OF_5B:
         for discs in sparse_numbers(settings) if settings.quick else numbers_of_discs(settings):
             run = settled_run(settings, friction, discs)
-            made.append(Point(settings, f"steady_{friction.name}_N{discs}_{length_of(run)}", settings.seeds_beyond, run,
-                              cells=cells_of(friction, discs)))
+            made.append(
+                Point(
+                    settings,
+                    f"steady_{friction.name}_N{discs}_{length_of(run)}",
+                    settings.seeds_beyond,
+                    run,
+                    cells=cells_of(friction, discs),
+                )
+            )
     return made
 
 
 def start_points(settings):
-    """The paper's protocol for the curves without one kind of friction: averages over all events, from the start on."""
-    return [point(settings, friction, discs, run=paper_run(settings, friction, discs) | {"warmup": 0}, prefix="start_")
-            for friction in (NO_WALL, NO_DISC) for discs in numbers_of_discs(settings)]
+    """The paper's protocol for the curves without one kind of friction: averages over all events,
+    from the start on."""
+    return [
+        point(
+            settings,
+            friction,
+            discs,
+            run=paper_run(settings, friction, discs) | {"warmup": 0},
+            prefix="start_",
+        )
+        for friction in (NO_WALL, NO_DISC)
+        for discs in numbers_of_discs(settings)
+    ]
 
 
 def between_seeds(point):
-    """The mean over the seeds with the error between them. The error within a run counts its transient as noise, but the
-    transient is part of what is averaged here."""
-    found = over_seeds([number(at(run, "rotation", "mean_by_event", "mean")) for run in point.runs if not too_short_to_average(run)])
+    """The mean over the seeds with the error between them. The error within a run counts its
+    transient as noise, but the transient is part of what is averaged here."""
+    found = over_seeds(
+        [
+            number(at(run, "rotation", "mean_by_event", "mean"))
+            for run in point.runs
+            if not too_short_to_average(run)
+        ]
+    )
     return {"mean": float(found[0]), "error": float(found[1])}
 
 
@@ -60,22 +102,30 @@ def start_table(points, settings):
         if at(point.result, "rotation", "mean_by_event"):
             point.result["rotation"]["mean_by_event"] |= between_seeds(point)
     curves = curves_by(points, "setting", "mean_by_event")
-    return curve_tables(points, curves), [f"{WITHOUT[curve.name].words}: {curve.sentence()}" for curve in curves]
+    return curve_tables(points, curves), [
+        f"{WITHOUT[curve.name].words}: {curve.sentence()}" for curve in curves
+    ]
 
 
 def compare_rates(curve):
-    """The two rates differ at every N: discs near the centre of mass, whose r² is small, have the largest weight in the
-    paper's ϖ and the smallest in the rotation of the rigid body."""
+    """The two rates differ at every N: discs near the centre of mass, whose r² is small, have the
+    largest weight in the paper's ϖ and the smallest in the rotation of the rigid body."""
     known = [p for p in curve.points if math.isfinite(p[1])]
     if not known:
         return "No run with the paper's friction has an average."
     rigid = {p[0]: p for p in curve.by_rate["rigid_by_event"]}
 
     def both(p):
-        return f"{with_error(*p[1:])} at N = {p[0]:.0f} (rigid body: {with_error(*rigid[p[0]][1:])})"
+        return (
+            f"{with_error(*p[1:])} at N = {p[0]:.0f} (rigid body: {with_error(*rigid[p[0]][1:])})"
+        )
+
     lowest, last = lowest_of(known), known[-1]
-    return ("The paper's ϖ/Ω, the mean over the discs, compared with that of the rigid body that fits the velocities best: "
-            f"the lowest is {both(lowest)}{', which is the last' if last == lowest else '; the last is ' + both(last)}.")
+    return (
+        "The paper's ϖ/Ω, the mean over the discs, compared with that of the rigid body that fits "
+        "the velocities best: "
+        f"the lowest is {both(lowest)}{', which is the last' if last == lowest else '; the last is ' + both(last)}."
+    )
 
 
 def friction_words(friction):
@@ -83,7 +133,10 @@ def friction_words(friction):
 
 
 def table(points, settings):
-    curves, findings = curves_by(points, "setting", "mean_by_event"), []  # by event, as in the paper's figure
+    curves, findings = (
+        curves_by(points, "setting", "mean_by_event"),
+        [],
+    )  # by event, as in the paper's figure
     for curve, friction in zip(curves, FRICTION_OF_5B):
         findings.append(f"{friction_words(friction)}: {curve.sentence()}")
         if friction == HIGH:
@@ -93,11 +146,17 @@ def table(points, settings):
 
 def draw(table):
     rows, crossings = style.read(table), tables.companion(table, "_crossings")
-    drawing, (axes, near) = style.figure(height=4.8, nrows=2, sharex=True, gridspec_kw={"height_ratios": (3, 2)})
+    drawing, (axes, near) = style.figure(
+        height=4.8, nrows=2, sharex=True, gridspec_kw={"height_ratios": (3, 2)}
+    )
     last = max(row["discs"] for row in rows)
     for name, label, color, marker in CURVES:
         here = style.select(rows, setting=name)
-        close = [row for row in here if abs(row["mean_by_event"]) + row["mean_by_event_error"] <= NEAR_ZERO]
+        close = [
+            row
+            for row in here
+            if abs(row["mean_by_event"]) + row["mean_by_event_error"] <= NEAR_ZERO
+        ]
         if close:
             style.curve(near, close, "discs", "mean_by_event", color=color, marker=marker)
         for row in style.select(crossings, curve=name):
@@ -123,7 +182,29 @@ def draw(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("5b", "paper", "rotation against N, for five sets of friction coefficients", points, table, draw),
-           Figure("5b-start", "beyond", "beyond the paper: Figure 5b without one friction, all events",
-                  start_points, start_table, draw),
-           Figure("5b-steady", "beyond", "beyond the paper: Figure 5b in the steady state", steady_points, table, draw)]
+FIGURES = [
+    Figure(
+        "5b",
+        "paper",
+        "rotation against N, for five sets of friction coefficients",
+        points,
+        table,
+        draw,
+    ),
+    Figure(
+        "5b-start",
+        "beyond",
+        "beyond the paper: Figure 5b without one friction, all events",
+        start_points,
+        start_table,
+        draw,
+    ),
+    Figure(
+        "5b-steady",
+        "beyond",
+        "beyond the paper: Figure 5b in the steady state",
+        steady_points,
+        table,
+        draw,
+    ),
+]

@@ -1,5 +1,5 @@
-"""Figures 5c and 5d: density of the discs in the M-frame, and their velocity relative to the container, rotating and
-counterrotating."""
+"""Figures 5c and 5d: density of the discs in the M-frame, and their velocity relative to the
+container, rotating and counterrotating."""
 
 import style
 from combine import failed, steadiness
@@ -16,10 +16,18 @@ def points(settings):
 
 def table_of(measurement, columns):
     def table(points, settings):
-        rows = [{"discs": point.cells["discs"], "steady_state": steadiness(point.result), **dict(zip(columns, cells))}
-                for point in points if not failed(point.result)
-                for cells in zip(*(point.result["measured"][measurement][column] for column in columns))]
+        rows = [
+            {
+                "discs": point.cells["discs"],
+                "steady_state": steadiness(point.result),
+                **dict(zip(columns, cells)),
+            }
+            for point in points
+            if not failed(point.result)
+            for cells in zip(*(point.result["measured"][measurement][column] for column in columns))
+        ]
         return {"": (rows, ["discs", "steady_state", *columns])}, []
+
     return table
 
 
@@ -34,7 +42,13 @@ def draw_density(table):
         shown = style.cells(panel, here, "by_event", R, densest)  # counted by event as in the paper
         style.container(panel, R, color="white")
         panel.set_title(f"$N = {discs:.0f}$")
-    drawing.colorbar(shown, ax=axes, orientation="horizontal", shrink=0.5, label=r"discs per unit area ($r^{-2}$)")
+    drawing.colorbar(
+        shown,
+        ax=axes,
+        orientation="horizontal",
+        shrink=0.5,
+        label=r"discs per unit area ($r^{-2}$)",
+    )
     style.note_not_steady(drawing, rows)
     style.save(drawing, table)
 
@@ -57,7 +71,21 @@ def draw_flow(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("5c", "paper", "density, N = 28 and 48", points,
-                  table_of("density", ("x", "y", "by_event", "by_event_error", "by_time", "by_time_error")), draw_density),
-           Figure("5d", "paper", "flow relative to the container, N = 28 and 48", points,
-                  table_of("flow", ("x", "y", "visits", "u_x", "u_x_error", "u_y", "u_y_error")), draw_flow)]
+FIGURES = [
+    Figure(
+        "5c",
+        "paper",
+        "density, N = 28 and 48",
+        points,
+        table_of("density", ("x", "y", "by_event", "by_event_error", "by_time", "by_time_error")),
+        draw_density,
+    ),
+    Figure(
+        "5d",
+        "paper",
+        "flow relative to the container, N = 28 and 48",
+        points,
+        table_of("flow", ("x", "y", "visits", "u_x", "u_x_error", "u_y", "u_y_error")),
+        draw_flow,
+    ),
+]

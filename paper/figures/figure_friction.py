@@ -12,20 +12,28 @@ def points(settings):
     for mu in [0.1, 0.5, 1.0] if settings.quick else [0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0, 2.0]:
         run = {"mu": mu, "events": int(settings.events or 300_000)}
         # μ = 0.2 crosses beyond the paper's last N.
-        made.append(search_point(settings, f"N_c_mu{text(mu)}", run, 20, numbers_beyond(settings)[-1], {"mu": mu}))
+        made.append(
+            search_point(
+                settings, f"N_c_mu{text(mu)}", run, 20, numbers_beyond(settings)[-1], {"mu": mu}
+            )
+        )
     return made
 
 
 def table(points, settings):
     found = [(point.cells, point.runs[0]) for point in points if point.runs]
-    return ({"": ([{**cells, **search_cells(run)} for cells, run in found], ["mu", *SEARCH_COLUMNS])},
-            [f"μ = {text(cells['mu'])}: {run['report']}" for cells, run in found])
+    return (
+        {"": ([{**cells, **search_cells(run)} for cells, run in found], ["mu", *SEARCH_COLUMNS])},
+        [f"μ = {text(cells['mu'])}: {run['report']}" for cells, run in found],
+    )
 
 
 def draw(table):
     rows = style.read(table)
     drawing, axes = style.figure()
-    style.curve(axes, style.select(rows, crosses=1.0), "mu", "crossing", color=style.BLUE, marker="o")
+    style.curve(
+        axes, style.select(rows, crosses=1.0), "mu", "crossing", color=style.BLUE, marker="o"
+    )
     style.without_crossing(axes, rows, "mu", style.BLUE)
     axes.margins(y=0.15)  # the arrows are above every crossing
     axes.set_xscale("log")
@@ -36,4 +44,8 @@ def draw(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("friction", "beyond", "beyond the paper: the crossing N_c against μ", points, table, draw)]
+FIGURES = [
+    Figure(
+        "friction", "beyond", "beyond the paper: the crossing N_c against μ", points, table, draw
+    )
+]

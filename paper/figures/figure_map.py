@@ -10,15 +10,32 @@ from study import Point
 
 
 def points(settings):
-    made, steps = [], [0.0, 0.1, 0.3, 1.0] if settings.quick else [0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.7, 1.0]
+    made, steps = [], [0.0, 0.1, 0.3, 1.0] if settings.quick else [
+        0.0,
+        0.02,
+        0.05,
+        0.1,
+        0.2,
+        0.3,
+        0.5,
+        0.7,
+        1.0,
+    ]
     for mu_disc in steps:
         for mu_wall in steps:
             if not mu_disc and not mu_wall:
                 continue  # there is no steady state
             friction = {"mu_disc": mu_disc, "mu_wall": mu_wall}
             run = {"discs": LAST_N, **friction, **lengths(settings, (100, 2), (200, 4))}
-            made.append(Point(settings, f"map_d{text(mu_disc)}_w{text(mu_wall)}_{length_of(run)}", settings.seeds_beyond,
-                              run, cells={**friction, "discs": LAST_N}))
+            made.append(
+                Point(
+                    settings,
+                    f"map_d{text(mu_disc)}_w{text(mu_wall)}_{length_of(run)}",
+                    settings.seeds_beyond,
+                    run,
+                    cells={**friction, "discs": LAST_N},
+                )
+            )
     return made
 
 
@@ -29,9 +46,12 @@ def table(points, settings):
         return {"": rows_of(points)}, ["No run was completed."]
     at = points[rates.index(lowest)].cells
     return {"": rows_of(points)}, [
-        f"{LAST_N} discs certainly counterrotate at {sum(mean < -CERTAIN * error for _, mean, error in rates)} of "
-        f"{len(points)} pairs of friction coefficients; lowest is ϖ/Ω = {with_error(*lowest[1:])} at "
-        f"μ_d = {text(at['mu_disc'])}, μ_w = {text(at['mu_wall'])}."]
+        f"{LAST_N} discs certainly counterrotate at "
+        f"{sum(mean < -CERTAIN * error for _, mean, error in rates)} of "
+        f"{len(points)} pairs of friction coefficients; lowest is ϖ/Ω = {with_error(*lowest[1:])} "
+        "at "
+        f"μ_d = {text(at['mu_disc'])}, μ_w = {text(at['mu_wall'])}."
+    ]
 
 
 def draw(table):
@@ -47,11 +67,20 @@ def draw(table):
     for (y, x), value in np.ndenumerate(rates):
         if value == value:
             number = f"{value:.2f}".replace("-0.00", "0.00").replace("-", "−")
-            axes.text(x, y, number, ha="center", va="center", fontsize=8 if large else style.SMALLEST,
-                      color="white" if abs(value) > 0.3 else "black")
+            axes.text(
+                x,
+                y,
+                number,
+                ha="center",
+                va="center",
+                fontsize=8 if large else style.SMALLEST,
+                color="white" if abs(value) > 0.3 else "black",
+            )
     for row in style.not_steady(rows):
         corner = (across.index(row["mu_disc"]) - 0.44, up.index(row["mu_wall"]) - 0.44)
-        axes.add_patch(style.plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":"))
+        axes.add_patch(
+            style.plt.Rectangle(corner, 0.88, 0.88, fill=False, linewidth=0.7, linestyle=":")
+        )
         style.note(drawing, "dotted: steady state not verified")
     if np.isnan(rates).any():
         style.note(drawing, "grey: no result")
@@ -66,4 +95,13 @@ def draw(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("map", "beyond", "beyond the paper: both friction coefficients at N = 48", points, table, draw)]
+FIGURES = [
+    Figure(
+        "map",
+        "beyond",
+        "beyond the paper: both friction coefficients at N = 48",
+        points,
+        table,
+        draw,
+    )
+]

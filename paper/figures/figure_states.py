@@ -7,8 +7,11 @@ from figure import Figure
 from paper_parameters import CONTAINER_RADIUS, COUNTERROTATING_N, OMEGA, ROTATING_N
 from runs import HIGH, NO_DISC, NO_WALL, measured_point, settled_point
 
-SETTINGS = (("high", "both coefficients 1", style.RED), ("no-wall", r"$\mu_w = 0$", style.GREEN),
-            ("no-disc", r"$\mu_d = 0$", style.ORANGE))
+SETTINGS = (
+    ("high", "both coefficients 1", style.RED),
+    ("no-wall", r"$\mu_w = 0$", style.GREEN),
+    ("no-disc", r"$\mu_d = 0$", style.ORANGE),
+)
 FRICTIONS = (HIGH, NO_WALL, NO_DISC)
 QUANTITIES = """temperature.granular temperature.of_the_spin centre.coriolis order.all=psi6 residence.share=residence_share
     frustration.coordination frustration.triangles"""
@@ -16,8 +19,11 @@ QUANTITIES = """temperature.granular temperature.of_the_spin centre.coriolis ord
 
 def points(settings):
     """Without disc friction in the steady state; the paper's 10^6 events cover the transient."""
-    return [(measured_point if friction.mu_disc else settled_point)(settings, friction, discs)
-            for friction in FRICTIONS for discs in (ROTATING_N, COUNTERROTATING_N)]
+    return [
+        (measured_point if friction.mu_disc else settled_point)(settings, friction, discs)
+        for friction in FRICTIONS
+        for discs in (ROTATING_N, COUNTERROTATING_N)
+    ]
 
 
 def table(points, settings):
@@ -29,17 +35,26 @@ def draw(table):
     rows = style.read(table)
     numbers = style.distinct(rows, "discs")
     drawing, (speed, heat) = style.figure(height=2.5, ncols=2)
-    per_speed = 1 / (2 * OMEGA ** 2 * CONTAINER_RADIUS)  # |Coriolis force| = 2 Ω v, in units of ΩR
+    per_speed = 1 / (2 * OMEGA**2 * CONTAINER_RADIUS)  # |Coriolis force| = 2 Ω v, in units of ΩR
     for k, (setting, label, color) in enumerate(SETTINGS):
         here = style.select(rows, setting=setting)
         for axes, name, factor in ((speed, "coriolis", per_speed), (heat, "granular", 1.0)):
             known = [row for row in here if row[name] == row[name]]
-            axes.bar([numbers.index(row["discs"]) + 0.27 * (k - 1) for row in known],
-                     [row[name] * factor for row in known], 0.25, color=color, label=label)
-            axes.errorbar([numbers.index(row["discs"]) + 0.27 * (k - 1) for row in known],
-                          [row[name] * factor for row in known],
-                          yerr=[row[name + "_error"] * factor for row in known],
-                          color=style.BLACK, linestyle="none", elinewidth=0.7)
+            axes.bar(
+                [numbers.index(row["discs"]) + 0.27 * (k - 1) for row in known],
+                [row[name] * factor for row in known],
+                0.25,
+                color=color,
+                label=label,
+            )
+            axes.errorbar(
+                [numbers.index(row["discs"]) + 0.27 * (k - 1) for row in known],
+                [row[name] * factor for row in known],
+                yerr=[row[name + "_error"] * factor for row in known],
+                color=style.BLACK,
+                linestyle="none",
+                elinewidth=0.7,
+            )
     for axes in (speed, heat):
         axes.set_xticks(range(len(numbers)), [f"{n:.0f}" for n in numbers])
         axes.set_xlabel("number of discs $N$")
@@ -51,4 +66,13 @@ def draw(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("states", "beyond", "motion in the M-frame, without disc or wall friction", points, table, draw)]
+FIGURES = [
+    Figure(
+        "states",
+        "beyond",
+        "motion in the M-frame, without disc or wall friction",
+        points,
+        table,
+        draw,
+    )
+]

@@ -1,5 +1,6 @@
-"""The shortest times between collisions, with and without friction, as a table only. The paper: "The minimal time between
-collisions is around 10^-11 and 10^-9 with and without friction, respectively" (SI, "Finding the next event")."""
+"""The shortest times between collisions, with and without friction, as a table only. The paper:
+"The minimal time between collisions is around 10^-11 and 10^-9 with and without friction,
+respectively" (SI, "Finding the next event")."""
 
 import math
 
@@ -31,19 +32,34 @@ def shortest_time(parameters):
 
 
 def points(settings):
-    return [Point(settings, f"times_mu{mu}", settings.seeds, paper_run(settings, Friction("", "", mu, mu), COUNTERROTATING_N),
-                  work=shortest_time, cells={"mu": mu, "discs": COUNTERROTATING_N}) for mu in (1, 0)]
+    return [
+        Point(
+            settings,
+            f"times_mu{mu}",
+            settings.seeds,
+            paper_run(settings, Friction("", "", mu, mu), COUNTERROTATING_N),
+            work=shortest_time,
+            cells={"mu": mu, "discs": COUNTERROTATING_N},
+        )
+        for mu in (1, 0)
+    ]
 
 
 def table(points, settings):
     rows, findings = [], []
     for point in points:
-        rows += [{**point.cells, "seed": k + 1, **task.result} for k, task in enumerate(point.tasks)
-                 if not failed(task.result)]
+        rows += [
+            {**point.cells, "seed": k + 1, **task.result}
+            for k, task in enumerate(point.tasks)
+            if not failed(task.result)
+        ]
         found = [run["smallest"] for run in point.runs]
         if found:
-            findings.append(f"μ = {point.cells['mu']}, N = {COUNTERROTATING_N}: the shortest time between two collisions "
-                            f"of a run lies between {min(found):.1g} and {max(found):.1g}.")
+            findings.append(
+                f"μ = {point.cells['mu']}, N = {COUNTERROTATING_N}: the shortest time between two "
+                "collisions "
+                f"of a run lies between {min(found):.1g} and {max(found):.1g}."
+            )
     return {"": (rows, ["mu", "discs", "seed", "events", "smallest"])}, findings
 
 

@@ -16,16 +16,29 @@ SEEDS = 4
 
 
 def transient(parameters):
-    """For each period of a run that starts from rest: ϖ/Ω, mean spin/Ω, and the number of events up to its end."""
+    """For each period of a run that starts from rest: ϖ/Ω, mean spin/Ω, and the number of events up
+    to its end."""
     series = swirl.run(series=True, **parameters).series
-    return {"varpi": series["mean_by_time"].tolist(), "spin": series["spin"].tolist(),
-            "events": np.cumsum(series["events"]).tolist()}
+    return {
+        "varpi": series["mean_by_time"].tolist(),
+        "spin": series["spin"].tolist(),
+        "events": np.cumsum(series["events"]).tolist(),
+    }
 
 
 def points(settings):
     length = {"warmup": 0, "periods": settings.periods(600, 20)}
-    return [Point(settings, f"transient_N{discs}", SEEDS, with_periods(paper_run(settings, NO_DISC, discs), length),
-                  work=transient, cells={"discs": discs}) for discs in ([48] if settings.quick else [40, 44, 46, 48])]
+    return [
+        Point(
+            settings,
+            f"transient_N{discs}",
+            SEEDS,
+            with_periods(paper_run(settings, NO_DISC, discs), length),
+            work=transient,
+            cells={"discs": discs},
+        )
+        for discs in ([48] if settings.quick else [40, 44, 46, 48])
+    ]
 
 
 def table(points, settings):
@@ -34,25 +47,42 @@ def table(points, settings):
         discs, runs = point.cells["discs"], point.runs
         if not runs:
             continue
-        varpi, spin = (over_seeds(np.array([run[name] for run in runs]).T) for name in ("varpi", "spin"))
+        varpi, spin = (
+            over_seeds(np.array([run[name] for run in runs]).T) for name in ("varpi", "spin")
+        )
         events = np.mean([run["events"] for run in runs], axis=0)
         periods = len(events)
-        rows += [{"discs": discs, "period": t + 1, "varpi": varpi[0][t], "varpi_error": varpi[1][t], "spin": spin[0][t],
-                  "spin_error": spin[1][t], "events": events[t]} for t in range(periods)]
+        rows += [
+            {
+                "discs": discs,
+                "period": t + 1,
+                "varpi": varpi[0][t],
+                "varpi_error": varpi[1][t],
+                "spin": spin[0][t],
+                "spin_error": spin[1][t],
+                "events": events[t],
+            }
+            for t in range(periods)
+        ]
         reached = [t + 1 for t in range(periods) if events[t] >= EVENTS]
         findings.append(
-            f"μ_d = 0, N = {discs}: ϖ/Ω = {np.mean(varpi[0][:periods // 10]):.3f} in the first {periods // 10} periods, "
-            f"{np.mean(varpi[0][periods // 2:]):.4f} in the last {periods - periods // 2}, with a mean spin of "
+            f"μ_d = 0, N = {discs}: ϖ/Ω = {np.mean(varpi[0][:periods // 10]):.3f} in the first "
+            f"{periods // 10} periods, "
+            f"{np.mean(varpi[0][periods // 2:]):.4f} in the last {periods - periods // 2}, with a "
+            "mean spin of "
             f"{with_error(spin[0][-1], math.nan)} Ω at the end; 10^6 events last "
-            f"{reached[0] if reached else f'more than {periods}'} periods.")
+            f"{reached[0] if reached else f'more than {periods}'} periods."
+        )
     return {"": rows}, findings
 
 
 def smoothed(rows, name, width=10):
     """Means over `width` periods, and the middles of these intervals."""
-    blocks = [rows[k:k + width] for k in range(0, len(rows) - width + 1, width)]
-    return ([sum(style.column(b, "period")) / width for b in blocks],
-            [sum(style.column(b, name)) / width for b in blocks])
+    blocks = [rows[k : k + width] for k in range(0, len(rows) - width + 1, width)]
+    return (
+        [sum(style.column(b, "period")) / width for b in blocks],
+        [sum(style.column(b, name)) / width for b in blocks],
+    )
 
 
 def draw(table):
@@ -72,4 +102,13 @@ def draw(table):
     style.save(drawing, table)
 
 
-FIGURES = [Figure("transient", "beyond", "beyond the paper: spin and rotation from rest, μ_d = 0", points, table, draw)]
+FIGURES = [
+    Figure(
+        "transient",
+        "beyond",
+        "beyond the paper: spin and rotation from rest, μ_d = 0",
+        points,
+        table,
+        draw,
+    )
+]

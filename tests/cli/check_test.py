@@ -1,5 +1,5 @@
-"""./check with programs in place of cmake and ctest: a failure in one part does not stop the others, and the last line
-is the sum of all."""
+"""./check with programs in place of cmake and ctest: a failure in one part does not stop the
+others, and the last line is the sum of all."""
 
 import os
 import shutil
@@ -8,7 +8,8 @@ import unittest
 
 from program import HANG, SOURCE, InFolder, read_text, write_text
 
-# Writes what ctest writes with --output-junit: the tests of the preset are in the file tests-PRESET.
+# Writes what ctest writes with --output-junit: the tests of the preset are in the file
+# tests-PRESET.
 CTEST = r"""#!/bin/sh
 while [ $# -gt 0 ]; do
     case $1 in
@@ -44,12 +45,17 @@ class Check(InFolder):
 
     def check(self, *arguments):
         path = self.path("bin") + ":" + os.environ["PATH"]
-        return subprocess.run([self.path("check"), *arguments], capture_output=True, text=True, timeout=HANG,
-                              env=dict(os.environ, PATH=path))
+        return subprocess.run(
+            [self.path("check"), *arguments],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+            env=dict(os.environ, PATH=path),
+        )
 
     def assert_ends(self, done, code, *lines):
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        self.assertEqual(done.stdout.splitlines()[-len(lines):], list(lines))
+        self.assertEqual(done.stdout.splitlines()[-len(lines) :], list(lines))
 
     def test_all_pass(self):
         self.assert_ends(self.check(), 0, "skipped: cli.c (preset tests)", "3 passed, 0 failed")
@@ -57,8 +63,13 @@ class Check(InFolder):
     def test_a_failed_test_does_not_stop_the_sanitizers(self):
         write_text(self.path("tests-tests"), "math.A fail\nmath.B run\n")
         write_text(self.path("tests-sanitize"), "math.A run\nengine.C fail\n")
-        self.assert_ends(self.check(), 1, "failed: math.A (preset tests)", "failed: engine.C (preset sanitize)",
-                         "2 passed, 2 failed")
+        self.assert_ends(
+            self.check(),
+            1,
+            "failed: math.A (preset tests)",
+            "failed: engine.C (preset sanitize)",
+            "2 passed, 2 failed",
+        )
 
     def test_a_failed_build_does_not_stop_the_others(self):
         write_text(self.path("broken-tests"), "")
@@ -76,9 +87,17 @@ class Check(InFolder):
 
     def test_slow_runs_every_part(self):
         for preset in ("fuzz", "threads", "sanitize-wide"):
-            write_text(self.path("tests-" + preset), f"{preset}.A {'fail' if preset == 'fuzz' else 'run'}\n")
-        self.assert_ends(self.check("--slow"), 1, "failed: fuzz.A (preset fuzz)", "4 passed, 1 failed")
-        self.assertEqual(read_text(self.path("configured")).split(), ["tests", "fuzz", "threads", "sanitize-wide"])
+            write_text(
+                self.path("tests-" + preset),
+                f"{preset}.A {'fail' if preset == 'fuzz' else 'run'}\n",
+            )
+        self.assert_ends(
+            self.check("--slow"), 1, "failed: fuzz.A (preset fuzz)", "4 passed, 1 failed"
+        )
+        self.assertEqual(
+            read_text(self.path("configured")).split(),
+            ["tests", "fuzz", "threads", "sanitize-wide"],
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
-"""Every claim that runs decide has a table, in one of the tests of claims, with which it does not hold, and one with which it
-holds at least in part. A claim that no table could refute would not be tested."""
+"""Every claim that runs decide has a table, in one of the tests of claims, with which it does not
+hold, and one with which it holds at least in part. A claim that no table could refute would not be
+tested."""
 
 import collections
 import glob
@@ -15,8 +16,11 @@ from claims.claim import NOTHING
 from verdicts import FAILS, HOLDS, IN_PART
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-TESTS = sorted(os.path.basename(file).removesuffix(".py") for file in glob.glob(os.path.join(HERE, "claims_*_test.py"))
-               if file != os.path.abspath(__file__))
+TESTS = sorted(
+    os.path.basename(file).removesuffix(".py")
+    for file in glob.glob(os.path.join(HERE, "claims_*_test.py"))
+    if file != os.path.abspath(__file__)
+)
 
 
 def code_of(judge):
@@ -31,6 +35,7 @@ def verdicts_in_tests(codes):
     def watch(frame, event, returned):
         if event == "return" and frame.f_code in codes and returned is not None:
             found[frame.f_code].add(returned[0].verdict)
+
     suite = unittest.defaultTestLoader.loadTestsFromNames(TESTS)
     before = sys.getprofile()
     sys.setprofile(watch)
@@ -43,7 +48,9 @@ def verdicts_in_tests(codes):
 
 class EveryClaim(unittest.TestCase):
     def test_fails_with_one_table_and_holds_with_another(self):
-        judged = {claim.statement: code_of(claim.judge) for claim in claims.CLAIMS if claim.on != NOTHING}
+        judged = {
+            claim.statement: code_of(claim.judge) for claim in claims.CLAIMS if claim.on != NOTHING
+        }
         found, result = verdicts_in_tests(set(judged.values()))
         self.assertTrue(result.wasSuccessful(), result.errors + result.failures)
         self.assertGreater(len(set(judged.values())), 45)

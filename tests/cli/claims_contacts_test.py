@@ -11,16 +11,28 @@ from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 class Contacts(HandMadeTables):
     def slip(self, rough, smooth=(0.5, 0.6, 0.7), error=0.01, shift=0.0):
         """`shift`: the slip of all pinned particles less that of the resident ones."""
-        self.table("4a", [
-            {"setting": setting, "discs": n, "slip_resident": s, "slip_resident_error": error,
-             "pinned_region": s + shift, "pinned_region_error": error, "point": f"{setting}_N{n}"}
-            for setting, curve in (("high", rough), ("low", smooth))
-            for n, s in zip((25, 36, 48), curve)])
+        self.table(
+            "4a",
+            [
+                {
+                    "setting": setting,
+                    "discs": n,
+                    "slip_resident": s,
+                    "slip_resident_error": error,
+                    "pinned_region": s + shift,
+                    "pinned_region_error": error,
+                    "point": f"{setting}_N{n}",
+                }
+                for setting, curve in (("high", rough), ("low", smooth))
+                for n, s in zip((25, 36, 48), curve)
+            ],
+        )
 
     def test_slip_parameter_rises_from_a_half_and_ends_near_one(self):
         def judged(*curve, error=0.001):
             self.slip(curve, error=error)
             return contacts.slip_rises(self.study, "high")
+
         self.assertEqual(judged(0.5, 0.9, 0.97)[0], HOLDS)
         self.assertEqual(judged(0.8, 0.9, 0.97)[0], IN_PART)  # not from a half
         self.assertEqual(judged(0.5, 0.6, 0.7)[0], IN_PART)
@@ -42,6 +54,7 @@ class Contacts(HandMadeTables):
         def judged(rough, smooth, error=0.01):
             self.slip(rough, smooth, error)
             return contacts.slip_rough(self.study, "high")[0]
+
         smooth = (0.5, 0.6, 0.7)
         self.assertEqual(judged((0.8, 0.9, 0.95), smooth), HOLDS)
         self.assertEqual(judged((0.8, 0.9, 0.5), smooth), FAILS)
@@ -50,30 +63,50 @@ class Contacts(HandMadeTables):
         # The distance from 1 counts, on either side.
         self.assertEqual(judged((0.8, 0.9, 1.2), smooth), HOLDS)
         self.assertEqual(judged((0.8, 0.9, 1.5), smooth), FAILS)
-        # Near 1 both may be equal. Certainly closer at every N, but by less than the threshold, is not enough.
+        # Near 1 both may be equal. Certainly closer at every N, but by less than the threshold, is
+        # not enough.
         self.assertEqual(judged((0.8, 0.9, 0.7), smooth, error=0.001), HOLDS)
         self.assertEqual(judged((0.51, 0.61, 0.71), smooth, error=0.0005), FAILS)
 
     def contacts(self, error=0.01, **columns):
         """The frustration of Figure 4b at N = 24, 36, 48."""
-        default = {"chain_correlation": (-0.3, -0.3, -0.3), "triangle_correlation": (-0.1, 0, 0),
-                   "wall_rolling_share": (0.6, 0.4, 0.3),
-                   "rolling_share": (0.8, 0.7, 0.7), "spin_correlation": (0, 0, 0), "resident_spin": (0.4, 0.3, 0.2),
-                   "triangles": (0.1, 0.2, 0.3), "psi6": (0.5, 0.5, 0.6),
-                   "six": (0.4, 0.5, 0.6), "six_pinned": (0.4, 0.5, 0.6), "disc_disc_rate": (2, 4, 8),
-                   # Values by the SI's criterion and by impulse are reported and decide nothing.
-                   "pinned_wall_spin": (0.4, 0.4, 0.4), "psi6_pinned": (0.6, 0.6, 0.6),
-                   "correlation_by_impulse": (0.5, 0.5, 0.5),
-                   "disc_wall_rate": (0.2, 0.2, 0.2)} | columns
-        self.table("4b", [
-            {"setting": "high", "discs": n, "point": f"high_N{n}",
-             **{name: found[k] for name, found in default.items()},
-             **{f"{name}_error": error for name in default}} for k, n in enumerate((24, 36, 48))])
+        default = {
+            "chain_correlation": (-0.3, -0.3, -0.3),
+            "triangle_correlation": (-0.1, 0, 0),
+            "wall_rolling_share": (0.6, 0.4, 0.3),
+            "rolling_share": (0.8, 0.7, 0.7),
+            "spin_correlation": (0, 0, 0),
+            "resident_spin": (0.4, 0.3, 0.2),
+            "triangles": (0.1, 0.2, 0.3),
+            "psi6": (0.5, 0.5, 0.6),
+            "six": (0.4, 0.5, 0.6),
+            "six_pinned": (0.4, 0.5, 0.6),
+            "disc_disc_rate": (2, 4, 8),
+            # Values by the SI's criterion and by impulse are reported and decide nothing.
+            "pinned_wall_spin": (0.4, 0.4, 0.4),
+            "psi6_pinned": (0.6, 0.6, 0.6),
+            "correlation_by_impulse": (0.5, 0.5, 0.5),
+            "disc_wall_rate": (0.2, 0.2, 0.2),
+        } | columns
+        self.table(
+            "4b",
+            [
+                {
+                    "setting": "high",
+                    "discs": n,
+                    "point": f"high_N{n}",
+                    **{name: found[k] for name, found in default.items()},
+                    **{f"{name}_error": error for name in default},
+                }
+                for k, n in enumerate((24, 36, 48))
+            ],
+        )
 
     def test_both_kinds_of_collisions_count(self):
         def judged(discs, wall, error=0.01):
             self.contacts(disc_disc_rate=discs, disc_wall_rate=wall, error=error)
             return contacts.more_collisions(self.study, "high")[0]
+
         self.assertEqual(judged((2, 4, 8), (1, 1, 1)), HOLDS)
         self.assertEqual(judged((2, 2.5, 3), (9, 5, 1)), FAILS)
         self.assertEqual(judged((2, 4, 8), (1, 1, 1), error=2), UNDECIDED)
@@ -82,6 +115,7 @@ class Contacts(HandMadeTables):
         def judged(*chain, error=0.01):
             self.contacts(chain_correlation=chain, error=error)
             return contacts.gears(self.study, "high")[0]
+
         self.assertEqual(judged(-0.3, -0.25, -0.3), HOLDS)
         self.assertEqual(judged(-0.3, -0.3, -0.1), IN_PART)  # not at the last N
         self.assertEqual(judged(0.3, 0.3, 0.3), FAILS)
@@ -92,6 +126,7 @@ class Contacts(HandMadeTables):
         def judged(*triangle, error=0.01):
             self.contacts(triangle_correlation=triangle, error=error)
             return contacts.triangles_frustrate(self.study, "high")[0]
+
         self.assertEqual(judged(-0.1, 0, 0.1), HOLDS)
         self.assertEqual(judged(-0.3, 0, 0), IN_PART)  # gears in spite of the triangle
         self.assertEqual(judged(-0.3, -0.3, -0.3), FAILS)
@@ -102,6 +137,7 @@ class Contacts(HandMadeTables):
         def judged(*share, error=0.01):
             self.contacts(wall_rolling_share=share, error=error)
             return contacts.prevented_from_rolling(self.study, "high")[0]
+
         self.assertEqual(judged(0.8, 0.7, 0.4), HOLDS)
         # Fewer roll than elsewhere (0.7), but most of them do.
         self.assertEqual(judged(0.4, 0.4, 0.65), FAILS)
@@ -111,6 +147,7 @@ class Contacts(HandMadeTables):
         def judged(last, everywhere=0.5):
             self.contacts(six_pinned=(0.3, 0.4, last), six=(everywhere,) * 3)
             return contacts.six_fold(self.study, "high")[0]
+
         self.assertEqual(judged(0.6), HOLDS)
         self.assertEqual(judged(0.4), FAILS)
         self.assertEqual(judged(0.51), UNDECIDED)
@@ -123,6 +160,7 @@ class Contacts(HandMadeTables):
         def judged(*spin, error=0.01):
             self.contacts(resident_spin=spin, triangles=(0.3, 0.2, 0.1), error=error)
             return contacts.wall_spin(self.study, "high")
+
         self.assertEqual(judged(0.4, 0.3, 0.2)[0], HOLDS)
         self.assertEqual(judged(0.2, 0.3, 0.4)[0], FAILS)
         self.assertEqual(judged(0.4, 0.3, 0.2, error=0.1)[0], UNDECIDED)

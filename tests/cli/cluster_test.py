@@ -19,8 +19,18 @@ class Cluster(InFolder):
         slurm, environment = private_slurm.started_for(self, nodes=3)
         out = self.path("a cluster, 100 % ours")  # the script must quote this name
         write_text(self.path("points.csv"), TABLE)
-        submitted = self.assert_works("sweep", "--points", self.path("points.csv"), *RUNS, "--out", out, "--slurm",
-                                      "--nodes", 3, environment=environment)
+        submitted = self.assert_works(
+            "sweep",
+            "--points",
+            self.path("points.csv"),
+            *RUNS,
+            "--out",
+            out,
+            "--slurm",
+            "--nodes",
+            3,
+            environment=environment,
+        )
         self.assertIn("Submitted as job", submitted.stdout)
 
         # The log folder exists under the unquoted name.
@@ -45,6 +55,7 @@ class Cluster(InFolder):
                 killed = True
                 self.assertLess(results(), POINTS, "the sweep ended before the node failed")
             return f"{POINTS} of {POINTS} runs done" in text
+
         wait_until(is_over)
         logs = ""
         for name in sorted(os.listdir(out + "/log")):
@@ -55,7 +66,9 @@ class Cluster(InFolder):
         self.assertTrue(running_seen)
 
         self.assert_works("sweep", *AXES, *RUNS, "--out", self.path("one"), "--quiet")
-        tables = [swirl("collect", folder, "--csv", "-").stdout for folder in (out, self.path("one"))]
+        tables = [
+            swirl("collect", folder, "--csv", "-").stdout for folder in (out, self.path("one"))
+        ]
         self.assertEqual(len(tables[0].splitlines()), 1 + POINTS // 2)
         self.assertEqual(tables[0], tables[1])
 
@@ -64,14 +77,30 @@ class Workflow(InFolder):
     @slow("Snakemake has many packages")
     def test_snakemake_makes_the_parts_and_the_table(self):
         plan = {"discs": "5:8", "mu": "0.5,1", "seeds": "2", "events": "2000"}
-        done = subprocess.run(["snakemake", "--snakefile", os.path.join(SOURCE, "examples", "sweep.smk"), "--cores", "2",
-                               "--config", f"swirl={program.SWIRL}", "parts=3", *(f"{k}={v}" for k, v in plan.items())],
-                              cwd=self.folder, capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                "snakemake",
+                "--snakefile",
+                os.path.join(SOURCE, "examples", "sweep.smk"),
+                "--cores",
+                "2",
+                "--config",
+                f"swirl={program.SWIRL}",
+                "parts=3",
+                *(f"{k}={v}" for k, v in plan.items()),
+            ],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len(os.listdir(self.path("parts"))), 3)
         options = [word for name, value in plan.items() for word in (f"--{name}", value)]
         self.assert_works("sweep", *options, "--out", self.path("one"), "--quiet")
-        self.assertEqual(read_text(self.path("table.csv")), swirl("collect", self.path("one"), "--csv", "-").stdout)
+        self.assertEqual(
+            read_text(self.path("table.csv")),
+            swirl("collect", self.path("one"), "--csv", "-").stdout,
+        )
 
 
 if __name__ == "__main__":

@@ -1,5 +1,6 @@
-"""cmake/help.txt holds the help of the program and of its scripts, which `./swirl` prints before it has built the
-program, and docs/reference/commands.md lists the commands. This command rewrites the help:
+"""cmake/help.txt holds the help of the program and of its scripts, which `./swirl` prints before it
+has built the program, and docs/reference/commands.md lists the commands. This command rewrites the
+help:
 
     SWIRL_WRITE_DOCS=1 SWIRL=build/tests/swirl python3 -B tests/cli/commands_test.py
 """
@@ -17,13 +18,19 @@ HANDWRITTEN = "swirl python"  # its --help is that of Python
 
 
 def subcommands(text):
-    listed = text[text.index("Subcommands:"):text.index("Examples:")]
+    listed = text[text.index("Subcommands:") : text.index("Examples:")]
     return re.findall(r"^  (\S+)", listed, re.MULTILINE)
 
 
 def help_of_script(name):
-    done = subprocess.run([os.path.join(SOURCE, "web", name + ".sh"), "--help"], capture_output=True,
-                          text=True, check=True, timeout=HANG, stdin=subprocess.DEVNULL)
+    done = subprocess.run(
+        [os.path.join(SOURCE, "web", name + ".sh"), "--help"],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=HANG,
+        stdin=subprocess.DEVNULL,
+    )
     return done.stdout
 
 
@@ -45,7 +52,7 @@ class Commands(unittest.TestCase):
     def test_the_stored_help_is_that_of_every_command(self):
         stored = text_of(HELP)
         made = "".join(f"## {title}\n{help_text}" for title, help_text in all_helps())
-        made += stored[stored.index(f"## {HANDWRITTEN}\n"):]
+        made += stored[stored.index(f"## {HANDWRITTEN}\n") :]
         if os.environ.get("SWIRL_WRITE_DOCS"):
             write_text(HELP, made)
             return
@@ -58,8 +65,10 @@ class Commands(unittest.TestCase):
 
     def test_help_does_not_depend_on_the_terminal_or_the_locale(self):
         usual = dict(all_helps())
-        for environment in ({"COLUMNS": "40", "TERM": "dumb", "LC_ALL": "C", "LANG": "C"},
-                            {"COLUMNS": "250", "TERM": "xterm-256color", "SWIRL_SIMD": "sse2"}):
+        for environment in (
+            {"COLUMNS": "40", "TERM": "dumb", "LC_ALL": "C", "LANG": "C"},
+            {"COLUMNS": "250", "TERM": "xterm-256color", "SWIRL_SIMD": "sse2"},
+        ):
             for title, help_text in all_helps(environment=environment):
                 with self.subTest(title, **environment):
                     self.assertEqual(help_text, usual[title])

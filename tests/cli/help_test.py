@@ -15,7 +15,7 @@ from program import SOURCE, SWIRL, ProgramTest, read_text, result_of, swirl
 def subcommands():
     """Names in the help of the program, under "Subcommands:"."""
     text = swirl("--help").stdout
-    listed = text[text.index("Subcommands:"):text.index("Examples:")]
+    listed = text[text.index("Subcommands:") : text.index("Examples:")]
     return re.findall(r"^  (\S+)", listed, re.MULTILINE)
 
 
@@ -31,7 +31,7 @@ def source_folders():
 def described_options(text):
     """(name, description) of each option in a help text; wrapped lines are joined."""
     found = []
-    for line in text[:text.index("Examples:")].splitlines():
+    for line in text[: text.index("Examples:")].splitlines():
         option = re.match(r"  (--[a-z-]+)\b(?:\S| (?! ))*(?:  +(\S.*))?$", line)
         if option:
             found.append([option[1], option[2] or ""])
@@ -46,7 +46,9 @@ def on_terminal(columns, *arguments):
     """The output on a terminal of this width."""
     ours, its = pty.openpty()
     fcntl.ioctl(its, termios.TIOCSWINSZ, struct.pack("HHHH", 40, columns, 0, 0))
-    process = subprocess.Popen([SWIRL, *arguments], stdout=its, stderr=its, stdin=subprocess.DEVNULL)
+    process = subprocess.Popen(
+        [SWIRL, *arguments], stdout=its, stderr=its, stdin=subprocess.DEVNULL
+    )
     os.close(its)
     output = b""
     while True:
@@ -63,7 +65,7 @@ def on_terminal(columns, *arguments):
 
 
 def examples(text):
-    return re.findall(r"^  (swirl .*)$", text[text.index("Examples:"):], re.MULTILINE)
+    return re.findall(r"^  (swirl .*)$", text[text.index("Examples:") :], re.MULTILINE)
 
 
 class Help(ProgramTest):
@@ -82,7 +84,7 @@ class Help(ProgramTest):
     def test_examples_use_only_options_that_exist(self):
         for name in subcommands():
             text = swirl(name, "--help").stdout
-            known = set(re.findall(r"(--[a-z0-9-]+)", text[:text.index("Examples:")]))
+            known = set(re.findall(r"(--[a-z0-9-]+)", text[: text.index("Examples:")]))
             for example in examples(text):
                 if not example.startswith(f"swirl {name} "):
                     continue
@@ -124,38 +126,60 @@ class Help(ProgramTest):
 
     def test_names_of_options_accept_both_spellings(self):
         for spelling in ("--color", "--colour"):
-            self.assertIn("--color is 'sped'", swirl("image", spelling, "sped", "--out", "x.png").stderr)
+            self.assertIn(
+                "--color is 'sped'", swirl("image", spelling, "sped", "--out", "x.png").stderr
+            )
         for spelling in ("--centre", "--center"):
-            self.assertNotIn("there is no option", swirl("measure", "missing.csv", f"{spelling}=1,1").stderr)
-        self.assertIn("did you mean --centre?", swirl("measure", "missing.csv", "--centr=1,1").stderr)
+            self.assertNotIn(
+                "there is no option", swirl("measure", "missing.csv", f"{spelling}=1,1").stderr
+            )
+        self.assertIn(
+            "did you mean --centre?", swirl("measure", "missing.csv", "--centr=1,1").stderr
+        )
 
     def test_a_wrong_value_gets_a_suggestion(self):
-        for call, meant in ((["run", "--body", "spere"], "sphere"), (["run", "--path", "cirle"], "circle"),
-                            (["run", "--measure", "dens"], "density"), (["run", "--inertia", "shel"], "shell"),
-                            (["image", "--color", "sped", "--out", "x.png"], "speed"),
-                            (["image", "--theme", "drak", "--out", "x.png"], "dark"),
-                            (["synthetic-video", "--camera", "fone", "--out", "x.mp4"], "phone"),
-                            (["paper", "--figure", "fricton"], "friction")):
+        for call, meant in (
+            (["run", "--body", "spere"], "sphere"),
+            (["run", "--path", "cirle"], "circle"),
+            (["run", "--measure", "dens"], "density"),
+            (["run", "--inertia", "shel"], "shell"),
+            (["image", "--color", "sped", "--out", "x.png"], "speed"),
+            (["image", "--theme", "drak", "--out", "x.png"], "dark"),
+            (["synthetic-video", "--camera", "fone", "--out", "x.mp4"], "phone"),
+            (["paper", "--figure", "fricton"], "friction"),
+        ):
             with self.subTest(call):
                 done = self.assert_fails(2, *call)
                 self.assertRegex(done.stderr, rf"\nhint: did you mean '{meant}'\?\n\Z")
 
     def test_an_unknown_name_gets_a_suggestion_only_if_it_is_likely(self):
-        for call, hint in ((["run", "--out", "r.json"], "did you mean --json? See `swirl run --help`."),
-                           (["collect", "sweep", "--out", "t.csv"], "did you mean --csv? See `swirl collect --help`."),
-                           (["run", "--friction=0.5"], "did you mean --mu? See `swirl run --help`."),
-                           (["run", "--dicss", "5"], "did you mean --discs? See `swirl run --help`."),
-                           # The unknown option explains why a required one is missing.
-                           (["export", "t.h5", "--to", "xyz"], "did you mean --format? See `swirl export --help`."),
-                           (["run", "--frobnicate"], "see `swirl run --help`."),
-                           (["frobnicate"], "see `swirl --help`.")):
+        for call, hint in (
+            (["run", "--out", "r.json"], "did you mean --json? See `swirl run --help`."),
+            (
+                ["collect", "sweep", "--out", "t.csv"],
+                "did you mean --csv? See `swirl collect --help`.",
+            ),
+            (["run", "--friction=0.5"], "did you mean --mu? See `swirl run --help`."),
+            (["run", "--dicss", "5"], "did you mean --discs? See `swirl run --help`."),
+            # The unknown option explains why a required one is missing.
+            (
+                ["export", "t.h5", "--to", "xyz"],
+                "did you mean --format? See `swirl export --help`.",
+            ),
+            (["run", "--frobnicate"], "see `swirl run --help`."),
+            (["frobnicate"], "see `swirl --help`."),
+        ):
             with self.subTest(call):
                 done = self.assert_fails(2, *call)
-                self.assertRegex(done.stderr, rf"\Aerror: there is no [^\n]+\.\nhint: {re.escape(hint)}\n\Z")
+                self.assertRegex(
+                    done.stderr, rf"\Aerror: there is no [^\n]+\.\nhint: {re.escape(hint)}\n\Z"
+                )
 
     def test_messages_name_only_options_that_exist(self):
-        known = {name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
-                 for name in subcommands()}
+        known = {
+            name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
+            for name in subcommands()
+        }
         everywhere = set().union(*known.values()) | {"--version", "--help"}
         seen = 0
         for folder, _, files in source_folders():
@@ -186,20 +210,23 @@ class Help(ProgramTest):
             for file in files:
                 text = read_text(os.path.join(folder, file))
                 for glued in re.finditer(r'\w"\s*\n\s*"[A-Za-z]', text):
-                    before = text[text.rindex("\n", 0, glued.start()):glued.start() + 1]
+                    before = text[text.rindex("\n", 0, glued.start()) : glued.start() + 1]
                     # A literal that ends with a line break needs no space.
                     if not before.endswith("\\n"):
                         self.fail(f"{file}: {before.strip()}")
 
     def test_a_parameter_has_one_name_in_tables_and_results(self):
-        options = {option[2:] for option in
-                   re.findall(r"(--[a-z][a-z0-9-]+)", swirl("run", "--help").stdout)}
+        options = {
+            option[2:]
+            for option in re.findall(r"(--[a-z][a-z0-9-]+)", swirl("run", "--help").stdout)
+        }
 
         def keys(value, path=""):
             if isinstance(value, dict):
                 for key, inner in value.items():
                     yield key, path
                     yield from keys(inner, path + "/" + key)
+
         result = result_of("--discs", 8, "--events", "2e4", "--measure", "all")
         for key, path in keys(result):
             self.assertNotIn("-", key, path)

@@ -7,8 +7,17 @@ import unittest
 
 from program import HANG, SWIRL, InFolder, swirl, write_text
 
-NAMES = ["plain", "with spaces", "it's", 'a "quoted" name', "a\nb", "$(touch planted)", "a; touch planted #",
-         "./-dash", "./-with spaces"]
+NAMES = [
+    "plain",
+    "with spaces",
+    "it's",
+    'a "quoted" name',
+    "a\nb",
+    "$(touch planted)",
+    "a; touch planted #",
+    "./-dash",
+    "./-with spaces",
+]
 SWEEP = ["--discs", "2:3", "--events", "200"]
 
 
@@ -19,8 +28,13 @@ class Hints(InFolder):
     def in_shell(self, command):
         """Runs the command in a shell, with the program under test as `swirl`."""
         self.assertTrue(command.startswith("swirl "), command)
-        return subprocess.run(["/bin/sh", "-c", shlex.quote(SWIRL) + command[5:]], cwd=self.folder,
-                              capture_output=True, text=True, timeout=HANG)
+        return subprocess.run(
+            ["/bin/sh", "-c", shlex.quote(SWIRL) + command[5:]],
+            cwd=self.folder,
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
 
     def test_the_printed_collect_command_works(self):
         for name in NAMES:
@@ -44,9 +58,13 @@ class Hints(InFolder):
 
     def test_the_printed_command_continues_a_sweep(self):
         name = "a; touch planted #"
-        process = subprocess.Popen([SWIRL, "sweep", "--discs", "5:40", "--events", "1e9", "--out", name],
-                                   cwd=self.folder, stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [SWIRL, "sweep", "--discs", "5:40", "--events", "1e9", "--out", name],
+            cwd=self.folder,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.addCleanup(process.kill)
         first = process.stderr.read(1)  # of the progress line: the sweep is running
         process.terminate()
@@ -72,13 +90,19 @@ class EndOfOptions(InFolder):
         self.assertEqual((done.returncode, done.stdout.split()[0]), (0, "3"), done.stderr)
 
     def test_words_after_it_are_not_options(self):
-        for words in (["run", "plan.toml", "--", "--version"], ["run", "plan.toml", "--", "--help"],
-                      ["run", "--", "plan.toml", "--discs", "5"], ["crossing", "--", "plan.toml", "--mu=1"],
-                      ["run", "plan.toml", "--", "-h"]):
+        for words in (
+            ["run", "plan.toml", "--", "--version"],
+            ["run", "plan.toml", "--", "--help"],
+            ["run", "--", "plan.toml", "--discs", "5"],
+            ["crossing", "--", "plan.toml", "--mu=1"],
+            ["run", "plan.toml", "--", "-h"],
+        ):
             with self.subTest(words):
                 done = self.call(*words)
                 self.assertEqual((done.returncode, done.stdout), (2, ""))
-                extra = next(word for word in words[words.index("--") + 1:] if word.startswith("-"))
+                extra = next(
+                    word for word in words[words.index("--") + 1 :] if word.startswith("-")
+                )
                 self.assertIn(f"unexpected argument '{extra}'", done.stderr)
 
     def test_it_may_be_the_last_argument(self):
@@ -88,21 +112,50 @@ class EndOfOptions(InFolder):
 class FormerNames(InFolder):
     def test_a_former_name_gets_the_present_one(self):
         for command, former, present in (
-                ("movie", "--frames", "--frame-files"), ("track", "--path", "--path-out"),
-                ("measure", "--skip", "--warmup"), ("export", "--to", "--format"), ("map", "--of", "--quantity"),
-                ("sweep", "--rest", "--finish-others")):
+            ("movie", "--frames", "--frame-files"),
+            ("track", "--path", "--path-out"),
+            ("measure", "--skip", "--warmup"),
+            ("export", "--to", "--format"),
+            ("map", "--of", "--quantity"),
+            ("sweep", "--rest", "--finish-others"),
+        ):
             with self.subTest(command=command, former=former):
-                required = {"export": ["a.h5", "--format", "xyz"], "map": ["--out", "m"], "sweep": ["--out", "s"]}
-                self.assert_fails(2, command, *required.get(command, []), former, "1", cwd=self.folder,
-                                  says=f"error: there is no option {former}.\nhint: did you mean {present}?")
+                required = {
+                    "export": ["a.h5", "--format", "xyz"],
+                    "map": ["--out", "m"],
+                    "sweep": ["--out", "s"],
+                }
+                self.assert_fails(
+                    2,
+                    command,
+                    *required.get(command, []),
+                    former,
+                    "1",
+                    cwd=self.folder,
+                    says=f"error: there is no option {former}.\nhint: did you mean {present}?",
+                )
 
     def test_a_former_rate_gets_the_present_one(self):
-        self.assert_fails(2, "crossing", "--rate", "by_event", cwd=self.folder, says="did you mean 'mean_by_event'?")
+        self.assert_fails(
+            2,
+            "crossing",
+            "--rate",
+            "by_event",
+            cwd=self.folder,
+            says="did you mean 'mean_by_event'?",
+        )
 
     def test_a_former_key_of_a_file_gets_the_present_one(self):
         write_text(self.path("a.toml"), "bare = true\n")
-        self.assert_fails(2, "image", "a.toml", "--out", "a.png", cwd=self.folder,
-                          says="did you mean 'no_annotations'?")
+        self.assert_fails(
+            2,
+            "image",
+            "a.toml",
+            "--out",
+            "a.png",
+            cwd=self.folder,
+            says="did you mean 'no_annotations'?",
+        )
 
 
 class Values(InFolder):
@@ -111,35 +164,71 @@ class Values(InFolder):
         self.assertEqual(self.left_behind(), [])
 
     def test_a_list_or_a_comma_in_a_number(self):
-        self.assert_rejected("run", "--mu", "0,5", says=["hint: use a decimal point, 0.5; `swirl sweep` takes lists"])
+        self.assert_rejected(
+            "run", "--mu", "0,5", says=["hint: use a decimal point, 0.5; `swirl sweep` takes lists"]
+        )
         for text in ("0.1,0.5", "0:0.25:1", "0.1,0.5,1"):
-            self.assert_rejected("run", "--mu", text, says=[f"--mu is '{text}'", "`swirl sweep` takes lists and ranges."])
-        self.assert_rejected("run", "--discs", "5:48", says=["`swirl sweep` takes lists and ranges."])
+            self.assert_rejected(
+                "run",
+                "--mu",
+                text,
+                says=[f"--mu is '{text}'", "`swirl sweep` takes lists and ranges."],
+            )
+        self.assert_rejected(
+            "run", "--discs", "5:48", says=["`swirl sweep` takes lists and ranges."]
+        )
 
     def test_ranges_without_a_step_and_in_another_order(self):
         sweep = ["sweep", "--out", "s", "--periods", "5"]
-        self.assert_rejected(*sweep, "--mu", "0:1", says=["--mu is '0:1', a range without a step", "give the step, 0:0.25:1"])
-        self.assert_rejected(*sweep, "--mu", "0:1:0.25", says=["the step is in the middle: FROM:STEP:TO.",
-                                                              "hint: write 0:0.25:1."])
+        self.assert_rejected(
+            *sweep,
+            "--mu",
+            "0:1",
+            says=["--mu is '0:1', a range without a step", "give the step, 0:0.25:1"],
+        )
+        self.assert_rejected(
+            *sweep,
+            "--mu",
+            "0:1:0.25",
+            says=["the step is in the middle: FROM:STEP:TO.", "hint: write 0:0.25:1."],
+        )
         self.assert_works(*sweep, "--discs", "5:8", "--dry-run", cwd=self.folder)
 
     def test_parameters_of_the_floor_without_a_floor(self):
-        for name, values in (("--gravity", ("6.382", "9")), ("--floor-friction", ("0.3", "0.4")),
-                             ("--rolling-resistance", ("0",))):
+        for name, values in (
+            ("--gravity", ("6.382", "9")),
+            ("--floor-friction", ("0.3", "0.4")),
+            ("--rolling-resistance", ("0",)),
+        ):
             for value in values:
-                self.assert_rejected("run", name, value, says=[f"{name} is {value}, but there is no floor."])
+                self.assert_rejected(
+                    "run", name, value, says=[f"{name} is {value}, but there is no floor."]
+                )
 
     def test_names_of_recordings(self):
         for option in ("--trajectory", "--log-events"):
-            self.assert_rejected("run", option, "a.txt", says=[f"{option} is 'a.txt', but its name must end in .h5."])
+            self.assert_rejected(
+                "run", option, "a.txt", says=[f"{option} is 'a.txt', but its name must end in .h5."]
+            )
 
     def test_a_ramp_is_reported_with_its_own_value(self):
         for text in (";", "mu=0:1@1..2;"):
-            self.assert_rejected("run", "--ramp", text, "--quiet", says=[f"--ramp is '{text}', but a part of it is empty."])
+            self.assert_rejected(
+                "run",
+                "--ramp",
+                text,
+                "--quiet",
+                says=[f"--ramp is '{text}', but a part of it is empty."],
+            )
 
     def test_the_status_of_a_map_or_sweep_in_an_empty_folder(self):
-        said = {swirl(command, "--out", ".", "--status", cwd=self.folder).stderr for command in ("map", "sweep")}
-        self.assertEqual(said, {"error: '.' is not the folder of a sweep or map: it holds no plan.json.\n"})
+        said = {
+            swirl(command, "--out", ".", "--status", cwd=self.folder).stderr
+            for command in ("map", "sweep")
+        }
+        self.assertEqual(
+            said, {"error: '.' is not the folder of a sweep or map: it holds no plan.json.\n"}
+        )
 
 
 if __name__ == "__main__":

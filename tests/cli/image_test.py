@@ -24,35 +24,52 @@ class ImageTest(InFolder):
             both = []
             for name in ("one.", "two."):
                 out = self.path(name + ending)
-                result = swirl("image", "--discs", "28", "--start", "3.3", "--frame", "both",
-                               "--color", "pinned", "--trails", "--size", "400x240", "--theme",
-                               "light", "--out", out)
+                result = swirl(
+                    "image",
+                    "--discs",
+                    "28",
+                    "--start",
+                    "3.3",
+                    "--frame",
+                    "both",
+                    "--color",
+                    "pinned",
+                    "--trails",
+                    "--size",
+                    "400x240",
+                    "--theme",
+                    "light",
+                    "--out",
+                    out,
+                )
                 self.assertEqual(result.returncode, 0, result.stderr)
                 both.append(contents(out))
             self.assertTrue(both[0].startswith(signature))
             self.assertTrue(both[0] == both[1], ending)
 
     def test_png_has_the_given_size(self):
-        result = swirl("image", "--discs", "5", "--start", "0", "--size", "123x77", "--out",
-                       self.path("x.png"))
+        result = swirl(
+            "image", "--discs", "5", "--start", "0", "--size", "123x77", "--out", self.path("x.png")
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(struct.unpack(">II", contents(self.path("x.png"))[16:24]), (123, 77))
 
     def test_invalid_options_are_rejected(self):
         out = self.path("x.png")
         for arguments, word in (
-                ((), "--out"),
-                (("--out", self.path("x.bmp")), ".svg"),
-                (("--out", out, "--start", "-1"), "-1"),
-                (("--out", out, "--start", "nan"), "nan"),
-                (("--out", out, "--strobe", "0"), "--strobe is 0"),
-                (("--out", out, "--start", "-9", "--strobe", "30"), "-9"),
-                (("--out", out, "--every", "0"), "0"),
-                (("--out", out, "--turned-angle", "--frame", "m"), "--frame"),
-                (("--out", out, "--angles"), "--frame"),
-                (("--out", out, "--trail-length", "0"), "--trail-length"),
-                (("--out", out, "--rolling-ball", "1", "--compare", "3"), "--compare"),
-                (("--out", out, "--rolling-ball", "1", "--ball-radius", "9"), "9")):
+            ((), "--out"),
+            (("--out", self.path("x.bmp")), ".svg"),
+            (("--out", out, "--start", "-1"), "-1"),
+            (("--out", out, "--start", "nan"), "nan"),
+            (("--out", out, "--strobe", "0"), "--strobe is 0"),
+            (("--out", out, "--start", "-9", "--strobe", "30"), "-9"),
+            (("--out", out, "--every", "0"), "0"),
+            (("--out", out, "--turned-angle", "--frame", "m"), "--frame"),
+            (("--out", out, "--angles"), "--frame"),
+            (("--out", out, "--trail-length", "0"), "--trail-length"),
+            (("--out", out, "--rolling-ball", "1", "--compare", "3"), "--compare"),
+            (("--out", out, "--rolling-ball", "1", "--ball-radius", "9"), "9"),
+        ):
             result = swirl("image", *arguments)
             self.assertEqual(result.returncode, 2, (arguments, result.stderr))
             self.assertIn(word, result.stderr)
@@ -72,9 +89,13 @@ class ImageTest(InFolder):
             result = swirl(*call, self.path("no/such/folder." + ending))
             self.assertEqual(result.returncode, 1)
             self.assertIn("no/such/folder", result.stderr)
-            limited = subprocess.run([SWIRL, *call, self.path("y." + ending)], capture_output=True, text=True,
-                                     timeout=HANG, preexec_fn=lambda: resource.setrlimit(
-                                         resource.RLIMIT_FSIZE, (100, 100)))
+            limited = subprocess.run(
+                [SWIRL, *call, self.path("y." + ending)],
+                capture_output=True,
+                text=True,
+                timeout=HANG,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (100, 100)),
+            )
             self.assertEqual(limited.returncode, 1, limited.stderr)
             self.assertIn("File too large", limited.stderr)
         self.assertEqual(sorted(os.listdir(self.folder)), ["mine", "x.pdf", "x.png", "x.svg"])
@@ -92,9 +113,17 @@ class ImageTest(InFolder):
         parts = self.path("parts")
 
         def complete():
-            """A movie is complete when its part is stored; a part that is being written has another ending."""
-            return sorted(name[len("movie-"):-len(".json")] + ".mp4" for name in os.listdir(parts)
-                          if name.endswith(".json")) if os.path.isdir(parts) else []
+            """A movie is complete when its part is stored; a part that is being written has another
+            ending."""
+            return (
+                sorted(
+                    name[len("movie-") : -len(".json")] + ".mp4"
+                    for name in os.listdir(parts)
+                    if name.endswith(".json")
+                )
+                if os.path.isdir(parts)
+                else []
+            )
 
         wait_until(lambda: len(complete()) >= 2, process)
         process.send_signal(signal.SIGINT)
@@ -128,9 +157,21 @@ class ImageTest(InFolder):
             for case in ("no-slip", "slip"):
                 self.assertIn(f"minimal-model-{frame}-{case}.mp4", movies)
         frames = subprocess.run(
-            ["ffprobe", "-v", "error", "-count_frames", "-of", "csv=p=0", "-show_entries",
-             "stream=width,height,nb_read_frames,duration", self.path(movies[0])],
-            capture_output=True, text=True, check=True).stdout.strip()
+            [
+                "ffprobe",
+                "-v",
+                "error",
+                "-count_frames",
+                "-of",
+                "csv=p=0",
+                "-show_entries",
+                "stream=width,height,nb_read_frames,duration",
+                self.path(movies[0]),
+            ],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.strip()
         self.assertEqual(frames, "360,360,3.000000,90")
 
 

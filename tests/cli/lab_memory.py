@@ -1,5 +1,5 @@
-"""The page's memory does not grow in ten minutes at full speed in a real browser (web/test/memory.mjs). Slow;
-an argument sets another number of minutes."""
+"""The page's memory does not grow in ten minutes at full speed in a real browser
+(web/test/memory.mjs). Slow; an argument sets another number of minutes."""
 
 import os
 import shutil
@@ -19,9 +19,18 @@ class Memory(unittest.TestCase):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         page = made_of_the_web(type(self), LAB, "laboratory.html")
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "memory.mjs"), page,
-                               CHROMIUM, str(MINUTES)], capture_output=True, text=True,
-                              timeout=HANG)
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "memory.mjs"),
+                page,
+                CHROMIUM,
+                str(MINUTES),
+            ],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 

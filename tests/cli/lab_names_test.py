@@ -1,5 +1,5 @@
-"""`swirl lab --out` writes where it says, and builds the page once. The tests run web/lab.sh in a small tree like a
-fresh clone, with stand-ins for the tools of a build."""
+"""`swirl lab --out` writes where it says, and builds the page once. The tests run web/lab.sh in a
+small tree like a fresh clone, with stand-ins for the tools of a build."""
 
 import os
 import shutil
@@ -12,7 +12,8 @@ from program import HANG, SOURCE, InFolder, read_text, write_text
 PROGRAMS = {
     "cmake": 'case $1 in --build) echo engine >"$2/swirl.wasm" ;; -S) mkdir -p "$4" ;; esac',
     "zopfli": "echo packed",
-    "npm": '[ "$1" != run ] || { echo x >>../builds && mkdir -p ../build/lab && echo page >../build/lab/index.html; }',
+    "npm": '[ "$1" != run ] || { echo x >>../builds && mkdir -p ../build/lab && echo page '
+    ">../build/lab/index.html; }",
 }
 
 
@@ -31,13 +32,22 @@ class LabNames(InFolder):
     def test_a_relative_path_is_that_of_the_caller_and_the_page_is_built_once(self):
         before = sorted(os.listdir(self.path("clone/web")))
         absolute = self.path("elsewhere/absolute.html")
-        for out, written in (("page.html", "page.html"), ("page.html", "page.html"),
-                             ("inner/page.html", "inner/page.html"), ("./inner/../b.html", "b.html"),
-                             (absolute, "absolute.html")):
+        for out, written in (
+            ("page.html", "page.html"),
+            ("page.html", "page.html"),
+            ("inner/page.html", "inner/page.html"),
+            ("./inner/../b.html", "b.html"),
+            (absolute, "absolute.html"),
+        ):
             with self.subTest(out):
-                done = subprocess.run([self.path("clone/web/lab.sh"), "--out", out], cwd=self.path("elsewhere"),
-                                      capture_output=True, text=True, timeout=HANG,
-                                      env={**os.environ, "PATH": self.path("clone/bin") + ":" + os.environ["PATH"]})
+                done = subprocess.run(
+                    [self.path("clone/web/lab.sh"), "--out", out],
+                    cwd=self.path("elsewhere"),
+                    capture_output=True,
+                    text=True,
+                    timeout=HANG,
+                    env={**os.environ, "PATH": self.path("clone/bin") + ":" + os.environ["PATH"]},
+                )
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(read_text(self.path("elsewhere/" + written)), "page\n")
                 self.assertEqual(read_text(self.path("clone/builds")), "x\n")

@@ -1,5 +1,5 @@
-"""The browser page: the WebAssembly engine reproduces the command line exactly, and the page works in a real
-browser."""
+"""The browser page: the WebAssembly engine reproduces the command line exactly, and the page works
+in a real browser."""
 
 import collections
 import csv
@@ -18,8 +18,21 @@ import subprocess
 import tempfile
 import zlib
 
-from program import (ALL, HANG, SOURCE, ProgramTest, made_of_the_web, main, read_bytes, read_json, read_rows,
-                     read_text, slow, swirl, write_text)
+from program import (
+    ALL,
+    HANG,
+    SOURCE,
+    ProgramTest,
+    made_of_the_web,
+    main,
+    read_bytes,
+    read_json,
+    read_rows,
+    read_text,
+    slow,
+    swirl,
+    write_text,
+)
 
 LAB = os.path.join(SOURCE, "web", "lab.sh")
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -29,16 +42,32 @@ COMPLETE = ["--all"] if ALL else []
 
 # As in the page's address.
 SCENES = [
-    {"discs": 1}, {"discs": 5, "mu": 0.1}, {"discs": 28}, {"discs": 48}, {"discs": 50, "seed": 2},
-    {"discs": 48, "mu_disc": 0, "mu_wall": 1}, {"discs": 28, "path": "circle"},
-    {"discs": 40, "mixture": "20:0.6"}, {"discs": 48, "restitution": 0.9},
+    {"discs": 1},
+    {"discs": 5, "mu": 0.1},
+    {"discs": 28},
+    {"discs": 48},
+    {"discs": 50, "seed": 2},
+    {"discs": 48, "mu_disc": 0, "mu_wall": 1},
+    {"discs": 28, "path": "circle"},
+    {"discs": 40, "mixture": "20:0.6"},
+    {"discs": 48, "restitution": 0.9},
     {"discs": 28, "inertia": "solid", "tangential_restitution": 0.5},
-    {"discs": 300, "radius": 0.3, "sides": 7}, {"discs": 48, "amplitude": 3, "container_radius": 9},
-    {"discs": 20, "preset": "experiment"}, {"discs": 28, "body": "sphere", "mu": 0.3},
+    {"discs": 300, "radius": 0.3, "sides": 7},
+    {"discs": 48, "amplitude": 3, "container_radius": 9},
+    {"discs": 20, "preset": "experiment"},
+    {"discs": 28, "body": "sphere", "mu": 0.3},
 ]
 EVENTS = 20000
 # Keys of a result that the page omits: the program's build, its command line and its duration.
-ONLY_COMMAND_LINE = {"seconds", "events_per_second", "simd", "version", "build", "command", "config_text"}
+ONLY_COMMAND_LINE = {
+    "seconds",
+    "events_per_second",
+    "simd",
+    "version",
+    "build",
+    "command",
+    "config_text",
+}
 
 NODE = """
 const engineOf = async (path) => {
@@ -99,8 +128,11 @@ engineOf(process.argv[1]).then(async (make) => {
 
 
 def options(scene):
-    return [word for name, value in scene.items()
-            for word in (f"--{name.replace('_', '-')}", str(value))]
+    return [
+        word
+        for name, value in scene.items()
+        for word in (f"--{name.replace('_', '-')}", str(value))
+    ]
 
 
 def pixels_of(path):
@@ -109,9 +141,11 @@ def pixels_of(path):
     data = read_bytes(path)
     chunks, at = {}, 8
     while at < len(data):
-        size, name = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + size]
-        assert zlib.crc32(name + body) == struct.unpack(">I", data[at + 8 + size:at + 12 + size])[0]
+        size, name = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + size]
+        assert (
+            zlib.crc32(name + body) == struct.unpack(">I", data[at + 8 + size : at + 12 + size])[0]
+        )
         chunks[name] = chunks.get(name, b"") + body
         at += 12 + size
     width, height, depth, kind, _, _, interlaced = struct.unpack(">IIBBBBB", chunks[b"IHDR"])
@@ -120,7 +154,7 @@ def pixels_of(path):
     stream, before, rows = zlib.decompress(chunks[b"IDAT"]), bytes(step * width), []
     assert len(stream) == height * (1 + step * width)
     for y in range(height):
-        way, *row = stream[y * (1 + step * width):(y + 1) * (1 + step * width)]
+        way, *row = stream[y * (1 + step * width) : (y + 1) * (1 + step * width)]
         for k, above in enumerate(before):
             left, corner = (row[k - step], before[k - step]) if k >= step else (0, 0)
             if way == 4:  # Paeth: the one nearest to left + above − corner
@@ -137,8 +171,12 @@ class Laboratory(ProgramTest):
     @classmethod
     def setUpClass(cls):
         cls.page = made_of_the_web(cls, LAB, "laboratory.html")
-        cls.node = subprocess.Popen(["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm")],
-                                    stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        cls.node = subprocess.Popen(
+            ["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm")],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            text=True,
+        )
         cls.addClassCleanup(cls.node.communicate)
 
     def engine(self, calls):
@@ -147,25 +185,61 @@ class Laboratory(ProgramTest):
         return json.loads(self.node.stdout.readline())
 
     def test_fourteen_scenes_match_the_command_line_exactly(self):
-        said = self.engine([{"given": {**{k: str(v) for k, v in scene.items()}, "warmup": "0",
-                                       "measure": "slip"}, "events": EVENTS} for scene in SCENES])
+        said = self.engine(
+            [
+                {
+                    "given": {
+                        **{k: str(v) for k, v in scene.items()},
+                        "warmup": "0",
+                        "measure": "slip",
+                    },
+                    "events": EVENTS,
+                }
+                for scene in SCENES
+            ]
+        )
         for scene, there in zip(SCENES, said["said"]):
             with self.subTest(scene):
                 self.assertNotIn("rejected", there)
                 self.assertEqual(there["asked"], [])
-                here = json.loads(swirl("run", *options(scene), "--warmup", "0", "--events",
-                                        str(EVENTS), "--measure", "slip", "--json", "-",
-                                        "--quiet").stdout)
+                here = json.loads(
+                    swirl(
+                        "run",
+                        *options(scene),
+                        "--warmup",
+                        "0",
+                        "--events",
+                        str(EVENTS),
+                        "--measure",
+                        "slip",
+                        "--json",
+                        "-",
+                        "--quiet",
+                    ).stdout
+                )
                 self.assertEqual(there["hash"], here["state_hash"])
                 self.assert_same_result(there["result"], here)
 
     def test_the_offered_command_reproduces_the_state(self):
-        scenes = [{**scene, "events": events} for scene, events in (
-            ({"discs": 12, "seed": 2}, 60000), ({"discs": 48, "warmup": "auto"}, 2000),
-            ({"seed": 7, "path": "circle", "discs": 28, "warmup": 3}, 30000),
-            ({"discs": 40, "mixture": "20:0.6"}, 5000), ({"discs": 20, "preset": "experiment"}, 5000))]
-        said = self.engine([{"given": {k: str(v) for k, v in scene.items() if k != "events"},
-                             "events": scene["events"]} for scene in scenes])["said"]
+        scenes = [
+            {**scene, "events": events}
+            for scene, events in (
+                ({"discs": 12, "seed": 2}, 60000),
+                ({"discs": 48, "warmup": "auto"}, 2000),
+                ({"seed": 7, "path": "circle", "discs": 28, "warmup": 3}, 30000),
+                ({"discs": 40, "mixture": "20:0.6"}, 5000),
+                ({"discs": 20, "preset": "experiment"}, 5000),
+            )
+        ]
+        said = self.engine(
+            [
+                {
+                    "given": {k: str(v) for k, v in scene.items() if k != "events"},
+                    "events": scene["events"],
+                }
+                for scene in scenes
+            ]
+        )["said"]
         warmups = 0
         for scene, there in zip(scenes, said):
             with self.subTest(scene):
@@ -189,15 +263,30 @@ class Laboratory(ProgramTest):
 
     def test_warnings_and_verdicts_match_the_command_line(self):
         warnings, verdicts = set(), set()
-        for scene, events in (({"discs": 8, "mu": 0}, 5000), ({"discs": 5, "seed": 2}, 60000),
-                              ({"discs": 8, "mu": 0, "path": "circle"}, 5000),
-                              ({"discs": 48}, 3000), ({"discs": 3, "mu": 0.01}, 20000),
-                              ({"discs": 12, "amplitude": 0}, 1)):
+        for scene, events in (
+            ({"discs": 8, "mu": 0}, 5000),
+            ({"discs": 5, "seed": 2}, 60000),
+            ({"discs": 8, "mu": 0, "path": "circle"}, 5000),
+            ({"discs": 48}, 3000),
+            ({"discs": 3, "mu": 0.01}, 20000),
+            ({"discs": 12, "amplitude": 0}, 1),
+        ):
             with self.subTest(scene):
                 given = {**{k: str(v) for k, v in scene.items()}, "warmup": "0", "measure": "slip"}
                 there = self.engine([{"given": given, "events": events}])["said"][0]["result"]
-                here = json.loads(swirl("run", *options({**scene, "warmup": 0}), "--measure", "slip",
-                                        "--events", str(events), "--json", "-", "--quiet").stdout)
+                here = json.loads(
+                    swirl(
+                        "run",
+                        *options({**scene, "warmup": 0}),
+                        "--measure",
+                        "slip",
+                        "--events",
+                        str(events),
+                        "--json",
+                        "-",
+                        "--quiet",
+                    ).stdout
+                )
                 self.assert_same_result(there, here)
                 warnings |= {warning.split()[0] for warning in there["warnings"]}
                 verdicts.add(there["steady_state"]["verdict"])
@@ -209,35 +298,58 @@ class Laboratory(ProgramTest):
             with self.subTest(scene):
                 given = {key: str(value) for key, value in scene.items()}
                 there = self.engine([{"given": given, "events": 60000}])["said"][0]["result"]
-                here = json.loads(swirl("run", *options({**scene, "warmup": 20}), "--events", "60000",
-                                        "--json", "-", "--quiet").stdout)
+                here = json.loads(
+                    swirl(
+                        "run",
+                        *options({**scene, "warmup": 20}),
+                        "--events",
+                        "60000",
+                        "--json",
+                        "-",
+                        "--quiet",
+                    ).stdout
+                )
                 self.assertEqual(there["warmup"]["periods"], 20)
                 for key in ("state_hash", "periods", "warmup", "rotation"):
                     self.assertEqual(there[key], here[key], key)
 
     def test_a_long_run_reports_the_periods_per_block(self):
         period = 11.866071
-        for warmup, periods, blocks in (("0", 2040, [0, [1, 1], 2040]), ("0", 2060, [0, [1, 2], 1030]),
-                                       ("2050", 2070, [1025, [2, 1], 1045])):
+        for warmup, periods, blocks in (
+            ("0", 2040, [0, [1, 1], 2040]),
+            ("0", 2060, [0, [1, 2], 1030]),
+            ("2050", 2070, [1025, [2, 1], 1045]),
+        ):
             with self.subTest(warmup=warmup, periods=periods):
                 given = {"discs": "1", "measure": "", "warmup": warmup}
-                steps = [["advance_to", (periods + 0.5) * period, 10 ** 9]]
+                steps = [["advance_to", (periods + 0.5) * period, 10**9]]
                 said = self.engine([{"given": given, "events": 0, "steps": steps}])["said"][0]
                 rotation = said["rotation"]
-                self.assertEqual([rotation["warmup_blocks"], rotation["periods_per_block"],
-                                  len(rotation["blocks"])], blocks)
+                self.assertEqual(
+                    [
+                        rotation["warmup_blocks"],
+                        rotation["periods_per_block"],
+                        len(rotation["blocks"]),
+                    ],
+                    blocks,
+                )
 
     def test_a_problem_has_the_event_and_the_message_of_the_command_line(self):
         collapsing = {"discs": 48, "restitution": 0.5, "contact_duration": 0}
         # On the way, at the end of the request, not yet; then rounding errors.
         problems = []
-        for scene, events in ((collapsing, 300000), (collapsing, 100000), (collapsing, 2000),
-                              ({"discs": 5, "radius": 1e-6, "container_radius": 0.001,
-                                "amplitude": 100000}, 3000)):
+        for scene, events in (
+            (collapsing, 300000),
+            (collapsing, 100000),
+            (collapsing, 2000),
+            ({"discs": 5, "radius": 1e-6, "container_radius": 0.001, "amplitude": 100000}, 3000),
+        ):
             with self.subTest(scene, events=events):
                 given = {key: str(value) for key, value in scene.items()}
                 there = self.engine([{"given": given, "events": events}])["said"][0]
-                here = swirl("run", *options(scene), "--events", str(events), "--quiet", check=False)
+                here = swirl(
+                    "run", *options(scene), "--events", str(events), "--quiet", check=False
+                )
                 self.assertEqual(here.returncode, 1 if there["problem"] else 0, here.stderr)
                 self.assertIn(there["problem"], here.stderr)
                 problems.append(there["problem"][:9])
@@ -245,21 +357,25 @@ class Laboratory(ProgramTest):
 
     def test_the_next_event_is_predicted_without_changing_the_state(self):
         given = {"discs": "28", "seed": "2"}
-        plain, asked = self.engine([
-            {"given": given, "events": 301, "steps": []},
-            {"given": given, "events": 300, "steps": [["next_event"], ["run_events", 1]]}])["said"]
+        plain, asked = self.engine(
+            [
+                {"given": given, "events": 301, "steps": []},
+                {"given": given, "events": 300, "steps": [["next_event"], ["run_events", 1]]},
+            ]
+        )["said"]
         self.assertEqual(plain["hash"], asked["hash"])
         for key in ("events", "rotation", "state_hash"):
             self.assertEqual(plain["result"][key], asked["result"][key])
 
     def discs(self, given, steps):
         """x, y, angle, spin and velocity of each disc after the last step, an advance_to."""
-        said = self.engine([{"given": {"discs": "5", "seed": "3", **given}, "events": 0,
-                             "steps": steps}])["said"][0]
+        said = self.engine(
+            [{"given": {"discs": "5", "seed": "3", **given}, "events": 0, "steps": steps}]
+        )["said"][0]
         self.assertNotIn("rejected", said)
         frame, discs = said["frame"][11:], []
         for begin in range(0, len(frame), 8):
-            discs.append(frame[begin:begin + 6])
+            discs.append(frame[begin : begin + 6])
         return discs, said["answers"]
 
     def test_orientations_of_spheres_match_a_recording(self):
@@ -267,20 +383,34 @@ class Laboratory(ProgramTest):
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         recorded = os.path.join(folder, "frames.h5")
-        swirl("run", *options(given), "--periods", "2", "--warmup", "0", "--frames", "7",
-              "--trajectory", recorded, "--json", recorded + ".json", "--quiet")
+        swirl(
+            "run",
+            *options(given),
+            "--periods",
+            "2",
+            "--warmup",
+            "0",
+            "--frames",
+            "7",
+            "--trajectory",
+            recorded,
+            "--json",
+            recorded + ".json",
+            "--quiet",
+        )
         units = read_json(recorded + ".json")["units"]
         swirl("export", recorded, "--format", "table", "--out", recorded + ".csv", "--quiet")
         rows = read_rows(recorded + ".csv")
-        frames = [rows[k:k + 12] for k in range(0, len(rows), 12)]
+        frames = [rows[k : k + 12] for k in range(0, len(rows), 12)]
         largest = 0.0
         for frame in frames[1:10:4]:
             time = float(frame[0]["time (r/v)"]) * units["r"] / units["v"]
-            seen = self.engine([{"given": given, "events": 0,
-                                 "steps": [["advance_to", time, 10 ** 6]]}])["said"][0]["frame"]
+            seen = self.engine(
+                [{"given": given, "events": 0, "steps": [["advance_to", time, 10**6]]}]
+            )["said"][0]["frame"]
             self.assertEqual(len(seen), 11 + 12 * (8 + 4))
             for i, sphere in enumerate(frame):
-                there = seen[11 + 12 * 8 + 4 * i:][:4]
+                there = seen[11 + 12 * 8 + 4 * i :][:4]
                 here = [float(sphere[f"turned {axis}"]) for axis in "wxyz"]
                 # The time of a frame is rounded to the page's clock: 1e-15 relative to about 20.
                 for a, b in zip(there, here, strict=True):
@@ -289,34 +419,42 @@ class Laboratory(ProgramTest):
         self.assertGreater(largest, 0.5)  # the spheres really rotate
 
     def assert_same_discs(self, these, those):
-        # Positions are shifted into the other simulation and rounded. Each of a few collisions increases
-        # that error tenfold.
+        # Positions are shifted into the other simulation and rounded. Each of a few collisions
+        # increases that error tenfold.
         for one, other in zip(these, those, strict=True):
             for a, b in zip(one, other, strict=True):
                 self.assertAlmostEqual(a, b, delta=1e-9)
 
     def test_moving_by_hand_along_the_polygon_matches_the_path(self):
         period, amplitude, sides = 11.866071, 1.892, 30
-        vertices = [[amplitude * f(2 * math.pi * k / sides) for f in (math.cos, math.sin)]
-                  for k in range(4)]
+        vertices = [
+            [amplitude * f(2 * math.pi * k / sides) for f in (math.cos, math.sin)] for k in range(4)
+        ]
         segment = period / sides
-        swirled, _ = self.discs({}, [["advance_to", 3 * segment * (1 - 1e-12), 10 ** 6]])
+        swirled, _ = self.discs({}, [["advance_to", 3 * segment * (1 - 1e-12), 10**6]])
         steps = []
         for k in range(3):
             now = 0 if k == 0 else segment
-            steps += [["steer", now, *vertices[k + 1], segment], ["advance_to", segment * (1 - 1e-12), 10 ** 6]]
+            steps += [
+                ["steer", now, *vertices[k + 1], segment],
+                ["advance_to", segment * (1 - 1e-12), 10**6],
+            ]
         by_hand, answers = self.discs({}, steps)
         self.assertEqual(answers[1::2], [1, 1, 1])
         self.assert_same_discs(by_hand, swirled)
 
     def test_a_change_keeps_the_discs_or_needs_a_new_simulation(self):
         period = 11.866071
-        same, _ = self.discs({}, [["advance_to", 1.1 * period, 10 ** 6]])
+        same, _ = self.discs({}, [["advance_to", 1.1 * period, 10**6]])
         given = {"discs": "5", "seed": "3"}
         change = lambda **more: ["change", period, {**given, **more}]  # noqa: E731
-        steps = [["advance_to", period, 10 ** 6], change(), ["advance_to", 0.1 * period, 10 ** 6]]
-        self.assertEqual(self.discs({}, [["keeps_discs", {"discs": "5", "seed": "3", "mu": "0"}],
-                                         ["advance_to", 0, 10]])[1][0], 1)
+        steps = [["advance_to", period, 10**6], change(), ["advance_to", 0.1 * period, 10**6]]
+        self.assertEqual(
+            self.discs(
+                {}, [["keeps_discs", {"discs": "5", "seed": "3", "mu": "0"}], ["advance_to", 0, 10]]
+            )[1][0],
+            1,
+        )
         kept, answers = self.discs({}, steps)
         self.assertEqual(answers, [1, 1, 1])
         # In the lab frame the container does not move.
@@ -325,22 +463,43 @@ class Laboratory(ProgramTest):
         other, answers = self.discs({}, steps)
         self.assertEqual(answers, [1, 1, 1])
         self.assertNotEqual(other, kept)
-        for more in ({"radius": "0.5"}, {"container_radius": "10"}, {"seed": "4"}, {"discs": "6", "mixture": "2:0.5"}):
-            self.assertEqual(self.discs({}, [["keeps_discs", {"discs": "5", "seed": "3", **more}],
-                                             ["advance_to", 0, 10]])[1][0], 0)
+        for more in (
+            {"radius": "0.5"},
+            {"container_radius": "10"},
+            {"seed": "4"},
+            {"discs": "6", "mixture": "2:0.5"},
+        ):
+            self.assertEqual(
+                self.discs(
+                    {},
+                    [["keeps_discs", {"discs": "5", "seed": "3", **more}], ["advance_to", 0, 10]],
+                )[1][0],
+                0,
+            )
             steps[1] = change(**more)
-            self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10 ** 6]])[1][1], 0)
+            self.assertEqual(self.discs({}, steps[:2] + [["advance_to", period, 10**6]])[1][1], 0)
 
     def test_contacts_change_at_once_and_the_path_at_a_period(self):
         period = 11.866071
         given = {"discs": "5", "seed": "3"}
-        for more, when in (({"mu": "0.5"}, 1), ({"discs": "7"}, 1), ({"amplitude": "1"}, 2), ({"path": "circle"}, 2)):
+        for more, when in (
+            ({"mu": "0.5"}, 1),
+            ({"discs": "7"}, 1),
+            ({"amplitude": "1"}, 2),
+            ({"path": "circle"}, 2),
+        ):
             answers = self.discs({}, [["keeps_discs", {**given, **more}], ["advance_to", 0, 10]])[1]
             self.assertEqual(answers[0], when, more)
         # A change to the same values in the middle of a period does not alter the motion.
-        same, _ = self.discs({}, [["advance_to", 0.5 * period, 10 ** 6]])
-        kept, answers = self.discs({}, [["advance_to", 0.4 * period, 10 ** 6], ["change", 0.4 * period, given],
-                                        ["advance_to", 0.1 * period, 10 ** 6]])
+        same, _ = self.discs({}, [["advance_to", 0.5 * period, 10**6]])
+        kept, answers = self.discs(
+            {},
+            [
+                ["advance_to", 0.4 * period, 10**6],
+                ["change", 0.4 * period, given],
+                ["advance_to", 0.1 * period, 10**6],
+            ],
+        )
         self.assertEqual(answers, [1, 1, 1])
         # The frames are those of the container's centre, which is where it was.
         self.assert_same_discs(kept, same)
@@ -348,9 +507,12 @@ class Laboratory(ProgramTest):
     def test_discs_are_added_where_there_is_room_and_the_last_are_removed(self):
         given = {"discs": "5", "seed": "3"}
         time = 3.0
-        before, _ = self.discs({}, [["advance_to", time, 10 ** 6]])
-        steps = lambda n: [["advance_to", time, 10 ** 6], ["change", time, {**given, "discs": str(n)}],  # noqa: E731
-                           ["advance_to", 0, 10 ** 6]]
+        before, _ = self.discs({}, [["advance_to", time, 10**6]])
+        steps = lambda n: [
+            ["advance_to", time, 10**6],
+            ["change", time, {**given, "discs": str(n)}],  # noqa: E731
+            ["advance_to", 0, 10**6],
+        ]
         more, answers = self.discs({}, steps(12))
         self.assertEqual((answers[1], len(more)), (1, 12))
         self.assert_same_discs(more[:5], before)
@@ -368,17 +530,51 @@ class Laboratory(ProgramTest):
     def test_the_cause_has_the_values_of_the_command_line(self):
         for discs in (12, 48):
             with self.subTest(discs=discs):
-                there = self.engine([{"given": {"discs": str(discs), "measure": ""}, "events": 0,
-                                      "steps": [["advance_to", 220 * 11.866071, 10 ** 9]]}])["said"][0]
-                here = json.loads(swirl("run", "--discs", str(discs), "--periods", "220", "--warmup", "20", "--measure",
-                                        "slip,frustration", "--json", "-", "--quiet").stdout)["measured"]
-                rows = [here["slip"]["cluster"], here["slip"]["cluster_perimeter"],
-                        *(here["frustration"][name] for name in ("spin_correlation", "disc_sticking", "wall_sticking"))]
+                there = self.engine(
+                    [
+                        {
+                            "given": {"discs": str(discs), "measure": ""},
+                            "events": 0,
+                            "steps": [["advance_to", 220 * 11.866071, 10**9]],
+                        }
+                    ]
+                )["said"][0]
+                here = json.loads(
+                    swirl(
+                        "run",
+                        "--discs",
+                        str(discs),
+                        "--periods",
+                        "220",
+                        "--warmup",
+                        "20",
+                        "--measure",
+                        "slip,frustration",
+                        "--json",
+                        "-",
+                        "--quiet",
+                    ).stdout
+                )["measured"]
+                rows = [
+                    here["slip"]["cluster"],
+                    here["slip"]["cluster_perimeter"],
+                    *(
+                        here["frustration"][name]
+                        for name in ("spin_correlation", "disc_sticking", "wall_sticking")
+                    ),
+                ]
                 for k, row in enumerate(rows):
-                    # Both have eight samples per period, but at other phases; every collision counts for both.
+                    # Both have eight samples per period, but at other phases; every collision
+                    # counts for both.
                     limit = 4 * row["error"] if k < 3 else 1e-3
-                    self.assertAlmostEqual(there["cause"][2 * k], row["mean"], delta=limit, msg=str(row))
-                    self.assertLess(abs(math.log(there["cause"][2 * k + 1] / row["error"])), math.log(3), str(row))
+                    self.assertAlmostEqual(
+                        there["cause"][2 * k], row["mean"], delta=limit, msg=str(row)
+                    )
+                    self.assertLess(
+                        abs(math.log(there["cause"][2 * k + 1] / row["error"])),
+                        math.log(3),
+                        str(row),
+                    )
                 self.assertGreater(there["contacts"], 100)
                 self.assertLessEqual(there["contacts"], 4096)
 
@@ -386,57 +582,97 @@ class Laboratory(ProgramTest):
         period = 11.866071
         for warmup, periods in (("0", 6), ("3", 6)):
             given = {"discs": "28", "seed": "2", "warmup": warmup, "measure": ""}
-            said = self.engine([{"given": given, "events": 0, "steps":
-                                 [["advance_to", periods * period * (1 + 1e-12), 10 ** 9]]}])["said"][0]
+            said = self.engine(
+                [
+                    {
+                        "given": given,
+                        "events": 0,
+                        "steps": [["advance_to", periods * period * (1 + 1e-12), 10**9]],
+                    }
+                ]
+            )["said"][0]
             averaged = periods - int(warmup)
             for turns, rate in zip(said["turns"], ("mean_by_time", "rigid_by_time")):
-                # The first sample of the next period is taken with the event at its beginning, so a sample of
-                # 1/64 period may be counted on one side only; a rate is below 2 Ω.
-                self.assertAlmostEqual(turns, averaged * said["rotation"][rate]["mean"], delta=2 / 64, msg=rate)
+                # The first sample of the next period is taken with the event at its beginning, so a
+                # sample of 1/64 period may be counted on one side only; a rate is below 2 Ω.
+                self.assertAlmostEqual(
+                    turns, averaged * said["rotation"][rate]["mean"], delta=2 / 64, msg=rate
+                )
 
     def test_reversed_time_leads_back_to_the_start(self):
         period = 11.866071
         for path in ("polygon", "circle"):
             given = {"mu": "0", "path": path}
-            begin, _ = self.discs(given, [["advance_to", 0, 10 ** 6]])
-            there, _ = self.discs(given, [["advance_to", 0.3 * period, 10 ** 6]])
+            begin, _ = self.discs(given, [["advance_to", 0, 10**6]])
+            there, _ = self.discs(given, [["advance_to", 0.3 * period, 10**6]])
             self.assertGreater(max(math.dist(a[:2], b[:2]) for a, b in zip(begin, there)), 1)
-            back, answers = self.discs(given, [
-                ["advance_to", 0.3 * period, 10 ** 6], ["reverse", 0.3 * period],
-                ["advance_to", 0.3 * period, 10 ** 6]])
+            back, answers = self.discs(
+                given,
+                [
+                    ["advance_to", 0.3 * period, 10**6],
+                    ["reverse", 0.3 * period],
+                    ["advance_to", 0.3 * period, 10**6],
+                ],
+            )
             self.assertEqual(answers, [1, 1, 1])
             for one, other in zip(back, begin, strict=True):
                 for a, b in zip(one[:2], other[:2]):
                     # A rounding error grows tenfold at each of the few collisions, there and back.
                     self.assertAlmostEqual(a, b, delta=1e-7, msg=path)
-        for lossy in ({}, {"mu_disc": "0", "mu_wall": "1"}, {"mu": "0", "restitution": "0.9"},
-                      {"body": "sphere", "floor": "sliding", "mu": "0"}):
+        for lossy in (
+            {},
+            {"mu_disc": "0", "mu_wall": "1"},
+            {"mu": "0", "restitution": "0.9"},
+            {"body": "sphere", "floor": "sliding", "mu": "0"},
+        ):
             _, answers = self.discs(lossy, [["reverse", 0.0], ["advance_to", 0, 10]])
             self.assertEqual(answers[0], 0, lossy)
 
     def test_a_dragged_disc_stops_at_obstacles(self):
         now = 4.0
-        before, _ = self.discs({}, [["advance_to", now, 10 ** 6]])
+        before, _ = self.discs({}, [["advance_to", now, 10**6]])
         dish = self.container_centre(now)
-        free = next([x, y] for x, y in ((dish[0] + 6.0 * math.cos(k), dish[1] + 6.0 * math.sin(k))
-                                        for k in range(7))
-                    if all(math.dist(disc[:2], (x, y)) > 2.01 for disc in before[1:]))
-        moved, _ = self.discs({}, [["advance_to", now, 10 ** 6], ["drag", now, 0, *free],
-                                   ["advance_to", 0, 10 ** 6]])
-        self.assert_same_discs([moved[0][:2], *[disc[:2] for disc in moved[1:]]],
-                               [free, *[disc[:2] for disc in before[1:]]])
+        free = next(
+            [x, y]
+            for x, y in (
+                (dish[0] + 6.0 * math.cos(k), dish[1] + 6.0 * math.sin(k)) for k in range(7)
+            )
+            if all(math.dist(disc[:2], (x, y)) > 2.01 for disc in before[1:])
+        )
+        moved, _ = self.discs(
+            {}, [["advance_to", now, 10**6], ["drag", now, 0, *free], ["advance_to", 0, 10**6]]
+        )
+        self.assert_same_discs(
+            [moved[0][:2], *[disc[:2] for disc in moved[1:]]],
+            [free, *[disc[:2] for disc in before[1:]]],
+        )
         # Into another disc, and out of the container: it stops at the contact.
-        for target, touches in ((before[1][:2], lambda disc: math.dist(disc[:2], before[1][:2]) - 2),
-                                ([40.0, 0.0], lambda disc: 7.6 - math.dist(disc[:2], dish))):
-            moved, _ = self.discs({}, [["advance_to", now, 10 ** 6], ["drag", now, 0, *target],
-                                       ["advance_to", 0, 10 ** 6]])
+        for target, touches in (
+            (before[1][:2], lambda disc: math.dist(disc[:2], before[1][:2]) - 2),
+            ([40.0, 0.0], lambda disc: 7.6 - math.dist(disc[:2], dish)),
+        ):
+            moved, _ = self.discs(
+                {},
+                [
+                    ["advance_to", now, 10**6],
+                    ["drag", now, 0, *target],
+                    ["advance_to", 0, 10**6],
+                ],
+            )
             others = min(math.dist(moved[0][:2], disc[:2]) for disc in moved[1:])
             self.assertGreaterEqual(others, 2)
             self.assertLess(min(touches(moved[0]), others - 2), 1e-6)
 
     def container_centre(self, now):
-        said = self.engine([{"given": {"discs": "5", "seed": "3"}, "events": 0,
-                             "steps": [["advance_to", now, 10 ** 6]]}])["said"][0]
+        said = self.engine(
+            [
+                {
+                    "given": {"discs": "5", "seed": "3"},
+                    "events": 0,
+                    "steps": [["advance_to", now, 10**6]],
+                }
+            ]
+        )["said"][0]
         return said["frame"][3:5]
 
     def test_the_page_knows_every_parameter_of_the_command_line(self):
@@ -451,8 +687,10 @@ class Laboratory(ProgramTest):
                 there = self.engine([{"given": wrong, "events": 1}])["said"][0]
                 here = self.assert_fails(2, "run", *options(wrong), check=False)
                 if "disks" in wrong:  # the command line calls it an option
-                    self.assertEqual(there["rejected"],
-                                     "there is no parameter 'disks'.\nhint: did you mean 'discs'?")
+                    self.assertEqual(
+                        there["rejected"],
+                        "there is no parameter 'disks'.\nhint: did you mean 'discs'?",
+                    )
                     continue
                 self.assertIn(there["rejected"], here.stderr)
                 self.assertRegex(there["rejected"], r"(?s)^(--)?\w.*\.$")
@@ -464,18 +702,51 @@ class Laboratory(ProgramTest):
         run = json.loads(swirl("run", *dish, "--events", "20000", "--json", "-", "--quiet").stdout)
         folder = os.path.dirname(self.page)
         picture = os.path.join(folder, "dish.svg")
-        swirl("image", *dish, "--start", repr(run["periods"]), "--no-annotations", "--out", picture, "--quiet")
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "page.mjs"), self.page,
-                               CHROMIUM, run["state_hash"], picture, folder, *COMPLETE],
-                              capture_output=True, text=True, timeout=HANG)
+        swirl(
+            "image",
+            *dish,
+            "--start",
+            repr(run["periods"]),
+            "--no-annotations",
+            "--out",
+            picture,
+            "--quiet",
+        )
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "page.mjs"),
+                self.page,
+                CHROMIUM,
+                run["state_hash"],
+                picture,
+                folder,
+                *COMPLETE,
+            ],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(read_json(os.path.join(folder, "result.json"))["config"]["discs"], 28)
         self.assert_shows_discs(os.path.join(folder, "swirl.png"), 28)
         if shutil.which("ffprobe"):
-            asked = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-show_entries",
-                                    "stream=nb_read_frames", "-of", "csv=p=0",
-                                    os.path.join(folder, "swirl.webm")],
-                                   check=True, capture_output=True, text=True)
+            asked = subprocess.run(
+                [
+                    "ffprobe",
+                    "-v",
+                    "error",
+                    "-count_frames",
+                    "-show_entries",
+                    "stream=nb_read_frames",
+                    "-of",
+                    "csv=p=0",
+                    os.path.join(folder, "swirl.webm"),
+                ],
+                check=True,
+                capture_output=True,
+                text=True,
+            )
             self.assertGreater(int(asked.stdout), 5)
 
     def test_the_page_in_firefox(self):
@@ -483,30 +754,61 @@ class Laboratory(ProgramTest):
         if not firefox:
             self.skipTest("this test needs firefox")
         # Debian 12 has Node.js 18.
-        if subprocess.run(["node", "--experimental-websocket", "-e", ""], capture_output=True).returncode:
+        if subprocess.run(
+            ["node", "--experimental-websocket", "-e", ""], capture_output=True
+        ).returncode:
             self.skipTest("this test needs a Node.js with WebSocket, version 20.10 or later")
-        run = json.loads(swirl("run", "--discs", "28", "--mu", "0.5", "--seed", "3", "--events", "20000", "--json", "-",
-                               "--quiet").stdout)
-        done = subprocess.run(["node", "--experimental-websocket", os.path.join(SOURCE, "web", "test", "firefox.mjs"), self.page,
-                               firefox, run["state_hash"]], capture_output=True, text=True, timeout=HANG)
+        run = json.loads(
+            swirl(
+                "run",
+                "--discs",
+                "28",
+                "--mu",
+                "0.5",
+                "--seed",
+                "3",
+                "--events",
+                "20000",
+                "--json",
+                "-",
+                "--quiet",
+            ).stdout
+        )
+        done = subprocess.run(
+            [
+                "node",
+                "--experimental-websocket",
+                os.path.join(SOURCE, "web", "test", "firefox.mjs"),
+                self.page,
+                firefox,
+                run["state_hash"],
+            ],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def assert_shows_discs(self, path, discs):
-        """The image has a light background and colours from blue to grey to orange, which cover the area of the
-        discs within a fifth. (Rims and orientation marks are dark.)"""
+        """The image has a light background and colours from blue to grey to orange, which cover the
+        area of the discs within a fifth. (Rims and orientation marks are dark.)"""
         rows = pixels_of(path)
         self.assertEqual({len(row) for row in rows}, {len(rows) - 22})
-        paper, floor, ink = (0xfb, 0xf9, 0xf6), (0xff, 0xff, 0xff), (0x1d, 0x23, 0x28)
+        paper, floor, ink = (0xFB, 0xF9, 0xF6), (0xFF, 0xFF, 0xFF), (0x1D, 0x23, 0x28)
         address = {pixel for row in rows[-22:] for pixel in row}  # below the image
         self.assertGreater(len(address), 3)
         rows = rows[:-22]
-        arcs = (0xcc, 0x5c, 0x0a), (0x24, 0x63, 0x9e)  # of the turns, outside the wall
+        arcs = (0xCC, 0x5C, 0x0A), (0x24, 0x63, 0x9E)  # of the turns, outside the wall
         for corner in (rows[0][0], rows[0][-1], rows[-1][0], rows[-1][-1]):
             self.assertEqual(corner, paper)
         colors = collections.Counter(pixel for row in rows for pixel in row)
         self.assertGreater(colors[ink], len(rows))
         much = 1e-4 * len(rows) ** 2
-        shown = [color for color, n in colors.items() if n > much and color not in (paper, floor, ink, *arcs)]
+        shown = [
+            color
+            for color, n in colors.items()
+            if n > much and color not in (paper, floor, ink, *arcs)
+        ]
         self.assertGreater(len(shown), 5)
         self.assertGreater(max(r - b for r, _, b in shown), 20)
         self.assertGreater(max(b - r for r, _, b in shown), 20)
@@ -518,51 +820,133 @@ class Laboratory(ProgramTest):
     def test_the_layout_on_phones_and_laptops(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "sizes.mjs"), self.page, CHROMIUM, *COMPLETE],
-                              capture_output=True, text=True, timeout=HANG)
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "sizes.mjs"),
+                self.page,
+                CHROMIUM,
+                *COMPLETE,
+            ],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_the_units_of_the_page(self):
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "units.mjs")],
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            ["node", os.path.join(SOURCE, "web", "test", "units.mjs")],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_the_sources_of_the_page_are_formatted(self):
+        done = subprocess.run(
+            ["npm", "run", "--silent", "format"],
+            capture_output=True,
+            text=True,
+            cwd=os.path.join(SOURCE, "web"),
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def files(self):
         """A folder with a result and a checkpoint of one run."""
         folder = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, folder)
         at = lambda name: os.path.join(folder, name)  # noqa: E731
-        swirl("run", "--discs", "12", "--mu", "0.3", "--periods", "8", "--warmup", "2", "--json", at("run.json"),
-              "--checkpoint", at("run.checkpoint"), "--keep-checkpoint", "--quiet")
+        swirl(
+            "run",
+            "--discs",
+            "12",
+            "--mu",
+            "0.3",
+            "--periods",
+            "8",
+            "--warmup",
+            "2",
+            "--json",
+            at("run.json"),
+            "--checkpoint",
+            at("run.checkpoint"),
+            "--keep-checkpoint",
+            "--quiet",
+        )
         write_text(at("parameters.json"), json.dumps(self.engine([])["parameters"]))
         write_text(at("messages.json"), json.dumps(self.messages()))
         return folder
 
     def messages(self):
-        """Error messages of the engine that need several values; panels.mjs tries each parameter alone."""
-        said = self.engine([{"given": wrong, "events": 1} for wrong in (
-            {"discs": "60"}, {"discs": "1000"}, {"discs": "40", "mixture": "39:2"}, {"radius": "9", "discs": "1"},
-            {"path": "circle", "sides": "5"}, {"path": "circle", "floor": "sliding"},
-            {"speed": "2", "amplitude": "1", "period": "5"},
-            {"body": "sphere", "floor": "sliding", "rolling_resistance": "1", "floor_friction": "0.1"})])["said"]
-        collapsed = self.engine([{"given": given, "events": 300000} for given in (
-            {"discs": "48", "restitution": "0.5", "contact_duration": "0"}, {"discs": "58"})])["said"]
+        """Error messages of the engine that need several values; panels.mjs tries each parameter
+        alone."""
+        said = self.engine(
+            [
+                {"given": wrong, "events": 1}
+                for wrong in (
+                    {"discs": "60"},
+                    {"discs": "1000"},
+                    {"discs": "40", "mixture": "39:2"},
+                    {"radius": "9", "discs": "1"},
+                    {"path": "circle", "sides": "5"},
+                    {"path": "circle", "floor": "sliding"},
+                    {"speed": "2", "amplitude": "1", "period": "5"},
+                    {
+                        "body": "sphere",
+                        "floor": "sliding",
+                        "rolling_resistance": "1",
+                        "floor_friction": "0.1",
+                    },
+                )
+            ]
+        )["said"]
+        collapsed = self.engine(
+            [
+                {"given": given, "events": 300000}
+                for given in (
+                    {"discs": "48", "restitution": "0.5", "contact_duration": "0"},
+                    {"discs": "58"},
+                )
+            ]
+        )["said"]
         return [one["rejected"] for one in said] + [one["problem"] for one in collapsed]
 
     def test_the_units_of_discovery_explorer_lesson_and_files(self):
         folder = self.files()
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "panels.mjs"),
-                               os.path.join(folder, "parameters.json"),
-                               os.path.join(SOURCE, "build/wasm/swirl.wasm"), folder], capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "panels.mjs"),
+                os.path.join(folder, "parameters.json"),
+                os.path.join(SOURCE, "build/wasm/swirl.wasm"),
+                folder,
+            ],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    @slow("discovery, explorer and lesson make hundreds of runs; their units are tested without a browser")
+    @slow(
+        "discovery, explorer and lesson make hundreds of runs; their units are tested without a "
+        "browser"
+    )
     def test_discovery_explorer_lesson_and_files_in_a_browser(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         folder = os.path.dirname(self.page)
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "panels_page.mjs"), self.page, CHROMIUM,
-                               self.files(), folder], capture_output=True, text=True, timeout=HANG)
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "panels_page.mjs"),
+                self.page,
+                CHROMIUM,
+                self.files(),
+                folder,
+            ],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         # A point of the explorer is the mean of runs, and its row has their command lines.
         with open(os.path.join(folder, "rotation_explored.csv"), encoding="utf-8") as opened:
@@ -578,12 +962,23 @@ class Laboratory(ProgramTest):
             for rate in ("mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event"):
                 means = [run[rate]["mean"] for run in runs]
                 # The page adds in the same order; only the last digit of a sum may differ.
-                self.assertAlmostEqual(float(row[f"varpi_{rate}"]), statistics.mean(means), delta=1e-14, msg=rate)
-                error = 3.182 / 1.96 * statistics.stdev(means) / 2  # Student's t, which the page has within 1 %
-                self.assertAlmostEqual(float(row[f"varpi_{rate}_error"]), error, delta=0.01 * error, msg=rate)
+                self.assertAlmostEqual(
+                    float(row[f"varpi_{rate}"]), statistics.mean(means), delta=1e-14, msg=rate
+                )
+                error = (
+                    3.182 / 1.96 * statistics.stdev(means) / 2
+                )  # Student's t, which the page has within 1 %
+                self.assertAlmostEqual(
+                    float(row[f"varpi_{rate}_error"]), error, delta=0.01 * error, msg=rate
+                )
 
     def test_maps_are_measured_only_while_they_are_shown(self):
-        done = subprocess.run(["node", "-e", NODE.split("// Answers each line")[0] + """
+        done = subprocess.run(
+            [
+                "node",
+                "-e",
+                NODE.split("// Answers each line")[0]
+                + """
             engineOf(process.argv[1]).then((make) => {
                 const said = {}, period = 11.866071;
                 for (const [name, from, to] of [["never", 99, 99], ["always", 0, 99], ["late", 22.5, 99], ["ended", 0, 25]]) {
@@ -603,12 +998,23 @@ class Laboratory(ProgramTest):
                     said[name] = [engine.out.state_hash().toString(), values.map((each) => (Number.isFinite(each) ? each : 0))];
                 }
                 console.log(JSON.stringify(said));
-            });""", os.path.join(SOURCE, "build/wasm/swirl.wasm")], check=True, capture_output=True, text=True)
+            });""",
+                os.path.join(SOURCE, "build/wasm/swirl.wasm"),
+            ],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
         said = json.loads(done.stdout)
-        self.assertEqual(len({state for state, _ in said.values()}), 1)  # the trajectory is the same
-        never, always, late, ended = (said[name][1] for name in ("never", "always", "late", "ended"))
+        self.assertEqual(
+            len({state for state, _ in said.values()}), 1
+        )  # the trajectory is the same
+        never, always, late, ended = (
+            said[name][1] for name in ("never", "always", "late", "ended")
+        )
         self.assertEqual(never, [])
-        # Each is the mean over its periods after the warm-up: 20 of them, 17 from period 23 on, and the first five.
+        # Each is the mean over its periods after the warm-up: 20 of them, 17 from period 23 on, and
+        # the first five.
         for values in (always, late, ended):
             self.assertGreater(max(values), 0.1)
         self.assertNotEqual(always, late)
@@ -619,23 +1025,60 @@ class Laboratory(ProgramTest):
 
     @slow("it makes 240 runs at each of two numbers of discs")
     def test_intervals_contain_the_true_rotation_rate(self):
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "coverage.mjs"),
-                               os.path.join(SOURCE, "build/wasm/swirl.wasm")], capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "coverage.mjs"),
+                os.path.join(SOURCE, "build/wasm/swirl.wasm"),
+            ],
+            capture_output=True,
+            text=True,
+        )
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def test_the_crossing_of_runs_matches_the_command_line(self):
-        search = json.loads(swirl("crossing", "--mu", "0.5", "--from", "41", "--to", "47", "--step", "1", "--events",
-                                  "20000", "--json", "-", "--quiet").stdout)
-        runs = [number for point in search["points"]
-                for number in (point["discs"], point["mean"], point["error"], 100, 0)]
-        done = subprocess.run(["node", "-e", NODE.split("// Answers each line")[0] + """
+        search = json.loads(
+            swirl(
+                "crossing",
+                "--mu",
+                "0.5",
+                "--from",
+                "41",
+                "--to",
+                "47",
+                "--step",
+                "1",
+                "--events",
+                "20000",
+                "--json",
+                "-",
+                "--quiet",
+            ).stdout
+        )
+        runs = [
+            number
+            for point in search["points"]
+            for number in (point["discs"], point["mean"], point["error"], 100, 0)
+        ]
+        done = subprocess.run(
+            [
+                "node",
+                "-e",
+                NODE.split("// Answers each line")[0]
+                + """
             engineOf(process.argv[1]).then((make) => {
                 const engine = make(), runs = JSON.parse(process.argv[2]), at = engine.out.runs(runs.length / 5);
                 new Float64Array(engine.out.memory.buffer, at, runs.length).set(runs);
                 console.log(engine.answer(engine.out.crossing()));
-            });""", os.path.join(SOURCE, "build/wasm/swirl.wasm"), json.dumps(runs)],
-                              check=True, capture_output=True, text=True)
+            });""",
+                os.path.join(SOURCE, "build/wasm/swirl.wasm"),
+                json.dumps(runs),
+            ],
+            check=True,
+            capture_output=True,
+            text=True,
+        )
         there = json.loads(done.stdout)
         self.assertEqual(there["verdict"], "crosses")
         for key in ("", "_error", "_lower", "_upper"):
@@ -643,16 +1086,34 @@ class Laboratory(ProgramTest):
         self.assertEqual(there["undetermined"], search["undetermined"])
         change = search["sign_changes"][-1]
         self.assertEqual([there["before"], there["after"]], [change["from"], change["to"]])
-        self.assertEqual(there["points"], [[p["discs"], p["mean"], p["error"]] for p in search["points"]])
+        self.assertEqual(
+            there["points"], [[p["discs"], p["mean"], p["error"]] for p in search["points"]]
+        )
 
     def test_options_of_a_run_set_the_parameters_of_the_page(self):
         folder = os.path.dirname(self.page)
         written = os.path.join(folder, "with_parameters.html")
-        done = subprocess.run([LAB, "--discs", "40", "--mu_disc=0.3", "--mixture", "20:0.6", "--out", written, "--quiet"],
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                LAB,
+                "--discs",
+                "40",
+                "--mu_disc=0.3",
+                "--mixture",
+                "20:0.6",
+                "--out",
+                written,
+                "--quiet",
+            ],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         with open(written, encoding="utf-8") as opened, open(self.page, encoding="utf-8") as plain:
-            entry = '<meta name="swirl-start" content="discs=40&amp;mu_disc=0.3&amp;mixture=20%3A0.6">\n'
+            entry = (
+                '<meta name="swirl-start" '
+                'content="discs=40&amp;mu_disc=0.3&amp;mixture=20%3A0.6">\n'
+            )
             text = opened.read()
             self.assertIn(entry, text)
             self.assertEqual(text.replace(entry, ""), plain.read())
@@ -664,15 +1125,20 @@ class Laboratory(ProgramTest):
 
     def test_it_is_small(self):
         packed = gzip.compress(read_bytes(self.page), 9)
-        # 18,000 of them are the font, 2,300 the units of quantities and the particles that cannot spin.
+        # 18,000 of them are the font, 2,300 the units of quantities and the particles that cannot
+        # spin.
         self.assertLessEqual(len(packed), 348_000)
 
     @slow("it watches the page for ten seconds; test_the_page_in_a_browser requires motion too")
     def test_it_keeps_running(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
-        done = subprocess.run(["node", os.path.join(SOURCE, "web", "test", "frames.mjs"), self.page,
-                               CHROMIUM], capture_output=True, text=True, timeout=HANG)
+        done = subprocess.run(
+            ["node", os.path.join(SOURCE, "web", "test", "frames.mjs"), self.page, CHROMIUM],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
         print(done.stdout)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
@@ -684,21 +1150,30 @@ class Laboratory(ProgramTest):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = str(free.getsockname()[1])
-        with subprocess.Popen([LAB, "--port", port, "--no-browser", "--discs", "40", "--mu", "0.3"],
-                              stdout=subprocess.PIPE, text=True) as lab:
+        with subprocess.Popen(
+            [LAB, "--port", port, "--no-browser", "--discs", "40", "--mu", "0.3"],
+            stdout=subprocess.PIPE,
+            text=True,
+        ) as lab:
             self.assertIn(f"http://localhost:{port}/?discs=40&mu=0.3 ", lab.stdout.readline())
-            second = subprocess.run([LAB, "--port", port, "--no-browser"], capture_output=True,
-                                    text=True)
+            second = subprocess.run(
+                [LAB, "--port", port, "--no-browser"], capture_output=True, text=True
+            )
             self.assertEqual(second.returncode, 1)
             self.assertIn(f"port {port} is already in use", second.stderr)
             lab.send_signal(signal.SIGINT)
         self.assertEqual(lab.returncode, 130)
 
     def test_usage_errors(self):
-        for wrong, said in ((["--port", "0"], "--port is '0'"), (["--port", "x"], "--port is 'x'"),
-                            (["--loud"], "'--loud'"), (["--out"], "--out needs a value"),
-                            (["--discs"], "--discs needs a value"), (["--periods", "5"], "'--periods'"),
-                            (["--seed", "1\n2"], "--seed contains a line break")):
+        for wrong, said in (
+            (["--port", "0"], "--port is '0'"),
+            (["--port", "x"], "--port is 'x'"),
+            (["--loud"], "'--loud'"),
+            (["--out"], "--out needs a value"),
+            (["--discs"], "--discs needs a value"),
+            (["--periods", "5"], "'--periods'"),
+            (["--seed", "1\n2"], "--seed contains a line break"),
+        ):
             done = subprocess.run([LAB, *wrong], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2, wrong)
             self.assertIn(said, done.stderr)

@@ -66,8 +66,9 @@ class Launcher(InFolder):
         self.write("src/main.cpp", PROGRAM.replace("WORD", word))
 
     def call(self, *arguments):
-        return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
-                              timeout=HANG, cwd="/")
+        return subprocess.run(
+            [self.path("swirl"), *arguments], capture_output=True, text=True, timeout=HANG, cwd="/"
+        )
 
     def word(self):
         done = self.call()
@@ -79,8 +80,21 @@ class Launcher(InFolder):
         self.assertEqual(done.stdout.split()[0], "first")
         self.assertIn("building", done.stderr)
         # The second call starts no program that builds, installs or queries packages.
-        for name in ("cmake", "ninja", "make", "c++", "g++", "cc", "gcc", "ld", "ccache", "dpkg-query",
-                     "apt-get", "git", "python3"):
+        for name in (
+            "cmake",
+            "ninja",
+            "make",
+            "c++",
+            "g++",
+            "cc",
+            "gcc",
+            "ld",
+            "ccache",
+            "dpkg-query",
+            "apt-get",
+            "git",
+            "python3",
+        ):
             self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
         done = self.call_with_stand_ins()
         self.assertEqual((done.stdout.split()[:1], done.stderr), (["first"], ""))
@@ -90,18 +104,48 @@ class Launcher(InFolder):
         self.assertTrue(os.path.exists(self.path("started")))
 
     def test_environment_variables_do_not_leak_into_the_build(self):
-        names = ("settings", "me", "long", "home", "stamp", "section", "sections", "camera", "door",
-                 "folder", "changed", "log", "missing", "wanted", "installed", "git_folder", "built")
+        names = (
+            "settings",
+            "me",
+            "long",
+            "home",
+            "stamp",
+            "section",
+            "sections",
+            "camera",
+            "door",
+            "folder",
+            "changed",
+            "log",
+            "missing",
+            "wanted",
+            "installed",
+            "git_folder",
+            "built",
+        )
         leaks = dict(os.environ, **{name: "-DLEAKED=ON" for name in names})
         self.copy("bindings/python/python.sh")
-        self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
+        self.write(
+            "CMakeLists.txt",
+            CMAKE
+            + """add_custom_target(swirl_python VERBATIM
   COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
-""")
+""",
+        )
         self.write("bindings/python/swirl.py", "word = 'module'\n")
-        for call, word in (([], "first"), (["python", "-c", "import swirl; print(swirl.word)"], "module")):
+        for call, word in (
+            ([], "first"),
+            (["python", "-c", "import swirl; print(swirl.word)"], "module"),
+        ):
             with self.subTest(call):
-                done = subprocess.run([self.path("swirl"), *call], capture_output=True, text=True,
-                                      timeout=HANG, env=leaks, cwd="/")
+                done = subprocess.run(
+                    [self.path("swirl"), *call],
+                    capture_output=True,
+                    text=True,
+                    timeout=HANG,
+                    env=leaks,
+                    cwd="/",
+                )
                 self.assertEqual(done.stdout.split()[:1], [word], done.stderr)
                 self.assertNotIn("LEAKED", done.stderr)
                 self.assertFalse("LEAKED" in read_text(self.path("build/release/CMakeCache.txt")))
@@ -112,12 +156,26 @@ class Launcher(InFolder):
         for given, others in (("", []), (":", []), (":/x::/y:", ["/x", "/y"])):
             with self.subTest(given):
                 done = subprocess.run(
-                    [self.path("swirl"), "python", "-P", "-S", "-c", "import sys; print(*sys.path)"],
-                    capture_output=True, text=True, timeout=HANG, cwd="/tmp",
-                    env=dict(os.environ, PYTHONPATH=given))
+                    [
+                        self.path("swirl"),
+                        "python",
+                        "-P",
+                        "-S",
+                        "-c",
+                        "import sys; print(*sys.path)",
+                    ],
+                    capture_output=True,
+                    text=True,
+                    timeout=HANG,
+                    cwd="/tmp",
+                    env=dict(os.environ, PYTHONPATH=given),
+                )
                 path = done.stdout.split()
-                self.assertEqual(path[:1 + len(others)],
-                                 [self.path("build/release/python"), *others], done.stderr)
+                self.assertEqual(
+                    path[: 1 + len(others)],
+                    [self.path("build/release/python"), *others],
+                    done.stderr,
+                )
                 self.assertNotIn("/tmp", path)
 
     def test_a_stale_build_of_another_user_is_an_error_with_a_hint(self):
@@ -127,9 +185,17 @@ class Launcher(InFolder):
         if not as_other:
             os.chmod(self.path("build/release"), 0o555)
             self.addCleanup(os.chmod, self.path("build/release"), 0o755)
+
         def call():
-            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=HANG,
-                                  cwd="/", **as_other)
+            return subprocess.run(
+                [self.path("swirl")],
+                capture_output=True,
+                text=True,
+                timeout=HANG,
+                cwd="/",
+                **as_other,
+            )
+
         done = call()
         self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)  # the build is up to date
         self.write_program("second")
@@ -137,7 +203,9 @@ class Launcher(InFolder):
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         said = done.stderr.splitlines()
         self.assertEqual(len(said), 2, done.stderr)
-        self.assertRegex(said[0], rf"^error: cannot build: '{self.folder}/build.*' cannot be written")
+        self.assertRegex(
+            said[0], rf"^error: cannot build: '{self.folder}/build.*' cannot be written"
+        )
         remedy = r"sudo chown -R \d+" if as_other else r"chmod -R u\+w"
         self.assertRegex(said[1], rf"^hint: {remedy} {self.folder}/build(;|$)")
 
@@ -170,39 +238,65 @@ class Launcher(InFolder):
         self.assertEqual(self.word(), "first")
         new = self.path("moved")
         os.makedirs(new)
-        for name in ("src", "cmake", "build", "swirl", "packages", "CMakeLists.txt",
-                     "CMakePresets.json"):
+        for name in (
+            "src",
+            "cmake",
+            "build",
+            "swirl",
+            "packages",
+            "CMakeLists.txt",
+            "CMakePresets.json",
+        ):
             shutil.move(self.path(name), new)
         write_text(os.path.join(new, "src", "main.cpp"), PROGRAM.replace("WORD", "elsewhere"))
-        done = subprocess.run([os.path.join(new, "swirl")], capture_output=True, text=True,
-                              timeout=HANG)
+        done = subprocess.run(
+            [os.path.join(new, "swirl")], capture_output=True, text=True, timeout=HANG
+        )
         self.assertEqual(done.stdout.split()[:1], ["elsewhere"], done.stderr)
 
     def test_becomes_the_program_with_its_exit_code_and_signals(self):
         self.assertEqual(self.word(), "first")
         self.assertEqual(self.call("7").returncode, 7)
-        process = subprocess.Popen([self.path("swirl"), "0", "wait"], stdout=subprocess.PIPE,
-                                   text=True)
+        process = subprocess.Popen(
+            [self.path("swirl"), "0", "wait"], stdout=subprocess.PIPE, text=True
+        )
         self.assertEqual(process.stdout.readline().split(), ["first", str(process.pid)])
         process.send_signal(signal.SIGTERM)
         process.communicate(timeout=HANG)
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
     def parts(self, subcommand, *arguments):
-        """The built parts (study, drawing, experiment, camera), or None if nothing ran, and whether the call built."""
+        """The built parts (study, drawing, experiment, camera), or None if nothing ran, and whether
+        the call built."""
         # The small program ends with exit code 0 for the name of a subcommand.
         done = self.call(subcommand, *(arguments or ("parts",)))
-        built = [letter for letter, part in zip("sdec", done.stdout.split(",")) if part.startswith("ON")]
+        built = [
+            letter for letter, part in zip("sdec", done.stdout.split(",")) if part.startswith("ON")
+        ]
         return "".join(built) if done.stdout else None, "building" in done.stderr
 
     def test_each_part_is_built_on_first_use_and_stays(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         for subcommand, parts, builds in (
-                ("run", "", True), ("run", "", False), ("paper", "", True),  # the module
-                ("movie", "d", True), ("image", "d", False), ("run", "d", False), ("synthetic-video", "d", False),
-                ("crossing", "sd", True), ("sweep", "sd", False), ("collect", "sd", False), ("map", "sd", False),
-                ("track", "sdec", True), ("track", "sdec", False), ("movie", "sdec", False), ("paper", "sdec", True),
-                ("paper", "sdec", False), ("experiment", "sdec", False), ("run", "sdec", False)):
+            ("run", "", True),
+            ("run", "", False),
+            ("paper", "", True),  # the module
+            ("movie", "d", True),
+            ("image", "d", False),
+            ("run", "d", False),
+            ("synthetic-video", "d", False),
+            ("crossing", "sd", True),
+            ("sweep", "sd", False),
+            ("collect", "sd", False),
+            ("map", "sd", False),
+            ("track", "sdec", True),
+            ("track", "sdec", False),
+            ("movie", "sdec", False),
+            ("paper", "sdec", True),
+            ("paper", "sdec", False),
+            ("experiment", "sdec", False),
+            ("run", "sdec", False),
+        ):
             with self.subTest(subcommand, parts=parts):
                 self.assertEqual(self.parts(subcommand), (parts, builds))
         self.write_program("second")
@@ -223,8 +317,12 @@ class Launcher(InFolder):
         self.assertEqual(done.stdout.split()[0], "first")
 
     def test_simultaneous_calls_build_once(self):
-        both = [subprocess.Popen([self.path("swirl")], stdout=subprocess.PIPE,
-                                 stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        both = [
+            subprocess.Popen(
+                [self.path("swirl")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+            )
+            for _ in range(2)
+        ]
         outputs = [process.communicate(timeout=HANG) for process in both]
         self.assertEqual([out.split()[0] for out, _ in outputs], ["first", "first"])
         self.assertEqual(sum("building" in errors for _, errors in outputs), 1)
@@ -237,15 +335,22 @@ class Launcher(InFolder):
 
     def call_with_stand_ins(self, *arguments, **environment):
         path = self.path("bin") + ":" + os.environ["PATH"]
-        return subprocess.run([self.path("swirl"), *arguments], capture_output=True, text=True,
-                              timeout=HANG, env=dict(os.environ, PATH=path, **environment))
+        return subprocess.run(
+            [self.path("swirl"), *arguments],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+            env=dict(os.environ, PATH=path, **environment),
+        )
 
     def test_without_root_the_install_command_is_printed(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
         self.stand_in("id", "echo 1000\n")
         done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)
-        self.assertIn("sudo apt-get install --no-install-recommends swirl-no-such-package\n", done.stderr)
+        self.assertIn(
+            "sudo apt-get install --no-install-recommends swirl-no-such-package\n", done.stderr
+        )
 
     def test_as_root_it_can_be_forbidden_to_install(self):
         self.write("packages", "[build]\ng++\nswirl-no-such-package\n[figures]\n")
@@ -253,21 +358,29 @@ class Launcher(InFolder):
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\nexit 1\n')
         done = self.call_with_stand_ins(SWIRL_INSTALL="no")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("\n    apt-get install --no-install-recommends swirl-no-such-package\n", done.stderr)
+        self.assertIn(
+            "\n    apt-get install --no-install-recommends swirl-no-such-package\n", done.stderr
+        )
         self.assertFalse(os.path.exists(self.path("asked")))
         done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)
         self.assertTrue(os.path.exists(self.path("asked")))
-        self.assertIn("installing Debian packages, once (SWIRL_INSTALL=no forbids it): "
-                      "swirl-no-such-package\n", done.stderr)
+        self.assertIn(
+            "installing Debian packages, once (SWIRL_INSTALL=no forbids it): "
+            "swirl-no-such-package\n",
+            done.stderr,
+        )
 
     def test_an_interrupted_installation_is_reported_with_its_remedy(self):
         self.write("packages", "[build]\nswirl-no-such-package\n")
         self.stand_in("id", "echo 0\n")
-        self.stand_in("apt-get", f"""echo "$@" >>{self.path("asked")}
+        self.stand_in(
+            "apt-get",
+            f"""echo "$@" >>{self.path("asked")}
 echo "E: dpkg was interrupted, you must manually run 'dpkg --configure -a' to correct the problem." >&2
 exit 100
-""")
+""",
+        )
         done = self.call_with_stand_ins()
         self.assertEqual(done.returncode, 1)
         self.assertTrue(done.stderr.endswith("\n    dpkg --configure -a\n"), done.stderr)
@@ -289,7 +402,9 @@ exit 100
         for name in ("cmake", "ninja", "g++", "apt-get", "dpkg-query"):
             self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
         self.assertEqual(self.call_with_stand_ins("run", "--help").returncode, 1)
-        self.write("cmake/help.txt", """## swirl
+        self.write(
+            "cmake/help.txt",
+            """## swirl
 Usage: swirl COMMAND
 ## swirl run
 Usage: swirl run [OPTIONS]
@@ -297,10 +412,14 @@ Usage: swirl run [OPTIONS]
 ## not a heading
 ## swirl python
 Usage: swirl python [ARGUMENTS OF PYTHON]
-""")
+""",
+        )
         run = "Usage: swirl run [OPTIONS]\n\n## not a heading\n"
-        for call, code, text in ((["run", "--help"], 0, run), (["run", "--discs", "4", "-h"], 0, run),
-                                 (["nothing", "-h"], 2, "Usage: swirl COMMAND\n")):
+        for call, code, text in (
+            (["run", "--help"], 0, run),
+            (["run", "--discs", "4", "-h"], 0, run),
+            (["nothing", "-h"], 2, "Usage: swirl COMMAND\n"),
+        ):
             with self.subTest(call):
                 done = self.call_with_stand_ins(*call)
                 self.assertEqual((done.returncode, done.stdout), (code, text), done.stderr)
@@ -323,17 +442,36 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
     def test_only_changes_of_the_packages_of_the_build_make_it_stale(self):
         launcher = read_text(self.path("cmake/launcher.sh"))
         self.write("cmake/launcher.sh", launcher.replace("/var/lib/dpkg", self.path("dpkg")))
-        packages = [self.path("dpkg/info/" + name) for name in ("g++.list", "cmake:amd64.list", "other.list",
-                                                             "lens.list", "libfmt-dev:amd64.list")]
-        self.write("packages", "[build]\ng++\ncmake\nninja-build\nlibfmt-dev\n[figures]\nother\n[camera]\nlens\n")
+        packages = [
+            self.path("dpkg/info/" + name)
+            for name in (
+                "g++.list",
+                "cmake:amd64.list",
+                "other.list",
+                "lens.list",
+                "libfmt-dev:amd64.list",
+            )
+        ]
+        self.write(
+            "packages",
+            "[build]\ng++\ncmake\nninja-build\nlibfmt-dev\n[figures]\nother\n[camera]\nlens\n",
+        )
         for name in [self.path("dpkg/status"), *packages]:
             self.write(name, "")
         self.assertEqual(self.word(), "first")
-        for name, builds in ((self.path("dpkg/status"), False), (packages[2], False), (packages[0], True),
-                             (packages[1], False), (packages[3], False), (packages[4], True)):
+        for name, builds in (
+            (self.path("dpkg/status"), False),
+            (packages[2], False),
+            (packages[0], True),
+            (packages[1], False),
+            (packages[3], False),
+            (packages[4], True),
+        ):
             with self.subTest(name):
                 os.utime(name)
-                self.assertEqual("sources have changed" in self.call("run", "--help").stderr, builds)
+                self.assertEqual(
+                    "sources have changed" in self.call("run", "--help").stderr, builds
+                )
                 self.assertEqual(self.call().returncode, 0)
                 self.assertNotIn("note", self.call("run", "--help").stderr)
         # The camera's packages count when the program has that part.
@@ -349,9 +487,16 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
                 if not name.startswith(("dpkg", "apt", "cmake", "ninja")):
                     if not os.path.lexists(os.path.join(everything, name)):
                         os.symlink(os.path.join(folder, name), os.path.join(everything, name))
+
         def call():
-            return subprocess.run([self.path("swirl")], capture_output=True, text=True, timeout=HANG,
-                                  env=dict(os.environ, PATH=everything))
+            return subprocess.run(
+                [self.path("swirl")],
+                capture_output=True,
+                text=True,
+                timeout=HANG,
+                env=dict(os.environ, PATH=everything),
+            )
+
         done = call()
         self.assertEqual((done.returncode, done.stdout), (1, ""))
         self.assertIn("no dpkg, so install these yourself:\n    cmake\n    ninja\n", done.stderr)
@@ -372,7 +517,9 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
             shutil.copy(self.path("swirl"), strange)
             done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True)
             self.assertEqual(done.returncode, 1)
-            self.assertRegex(done.stderr, r"\Aerror: cannot build in '.*': CMake does not support .*\n\Z")
+            self.assertRegex(
+                done.stderr, r"\Aerror: cannot build in '.*': CMake does not support .*\n\Z"
+            )
             self.assertFalse(os.path.exists(os.path.join(strange, "build")))
 
     def test_works_in_a_folder_with_a_strange_name_and_without_home(self):
@@ -381,25 +528,55 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
         for name in ("src", "cmake", "swirl", "packages", "CMakeLists.txt", "CMakePresets.json"):
             shutil.move(self.path(name), strange)
         subprocess.run(["git", "init", "-q", strange], check=True)
-        subprocess.run(["git", "-C", strange, "-c", "user.name=a", "-c", "user.email=a@b", "commit",
-                        "-q", "--allow-empty", "-m", "first"], check=True)
+        subprocess.run(
+            [
+                "git",
+                "-C",
+                strange,
+                "-c",
+                "user.name=a",
+                "-c",
+                "user.email=a@b",
+                "commit",
+                "-q",
+                "--allow-empty",
+                "-m",
+                "first",
+            ],
+            check=True,
+        )
         for builds in (True, False):
-            done = subprocess.run([os.path.join(strange, "swirl")], capture_output=True, text=True, timeout=HANG,
-                                  cwd="/", env={name: text for name, text in os.environ.items() if name != "HOME"})
+            done = subprocess.run(
+                [os.path.join(strange, "swirl")],
+                capture_output=True,
+                text=True,
+                timeout=HANG,
+                cwd="/",
+                env={name: text for name, text in os.environ.items() if name != "HOME"},
+            )
             self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
             self.assertEqual("building" in done.stderr, builds)
 
     def start(self, *arguments, **more):
-        return subprocess.Popen([self.path("swirl"), *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                **more)
+        return subprocess.Popen(
+            [self.path("swirl"), *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            **more,
+        )
 
     def start_a_build_that_waits(self, **more):
         """A call whose build continues when the file build/release/end exists."""
         self.write("wait.sh", "echo . >>begun\nuntil [ -e end ]; do sleep 0.05; done\n")
-        self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT waited.txt VERBATIM
+        self.write(
+            "CMakeLists.txt",
+            CMAKE
+            + """add_custom_command(OUTPUT waited.txt VERBATIM
   COMMAND sh ${PROJECT_SOURCE_DIR}/wait.sh COMMAND ${CMAKE_COMMAND} -E touch waited.txt)
 add_custom_target(waits ALL DEPENDS waited.txt)
-""")
+""",
+        )
         started = self.start(**more)
         wait_until(lambda: os.path.exists(self.path("build/release/begun")), started)
         return started
@@ -434,27 +611,51 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         done = self.call()  # up to date
         self.assertEqual((done.stdout.split()[0], done.stderr), ("first", ""))
         self.write_program("second")
-        for call in (["--version"], ["--help"], ["run", "--help"], ["lab", "--help"], ["python", "--help"]):
+        for call in (
+            ["--version"],
+            ["--help"],
+            ["run", "--help"],
+            ["lab", "--help"],
+            ["python", "--help"],
+        ):
             with self.subTest(call):
                 self.copy("web/lab.sh")
                 self.assertNotIn("waiting", self.call(*call).stderr)
         waits = self.start()
-        self.assertEqual(waits.stderr.readline(), "swirl: waiting for another build (since 14:03)\n")
+        self.assertEqual(
+            waits.stderr.readline(), "swirl: waiting for another build (since 14:03)\n"
+        )
         let_go()
         self.assertEqual(waits.communicate(timeout=HANG)[0].split()[0], "second")
 
     def test_the_version_needs_no_build(self):
-        self.write("CMakeLists.txt", CMAKE + "# as in the real project\nproject(swirl VERSION 3.2.1 LANGUAGES CXX)\n")
+        self.write(
+            "CMakeLists.txt",
+            CMAKE + "# as in the real project\nproject(swirl VERSION 3.2.1 LANGUAGES CXX)\n",
+        )
         done = self.call("--version")
-        self.assertEqual((done.returncode, done.stdout, done.stderr), (0, "3.2.1 (not built yet)\n", ""))
+        self.assertEqual(
+            (done.returncode, done.stdout, done.stderr), (0, "3.2.1 (not built yet)\n", "")
+        )
         self.assertFalse(os.path.exists(self.path("build")))
 
     def test_the_page_is_built_without_waiting_for_the_program(self):
         self.copy("web/lab.sh")
-        for name, script in (("clang++-19", "exit 0"), ("wasm-opt", "exit 0"), ("node", "exit 0"), ("zopfli", "echo x"),
-                             ("cmake", 'case "$*" in *--fresh* | *--build*) exit 0 ;; esac; exit 1'),  # in a moved tree
-                             ("npm", f"echo x >>{self.path('builds')}\n"
-                              "[ $1 != run ] || { mkdir -p ../build/lab && echo page >../build/lab/index.html; }")):
+        for name, script in (
+            ("clang++-19", "exit 0"),
+            ("wasm-opt", "exit 0"),
+            ("node", "exit 0"),
+            ("zopfli", "echo x"),
+            (
+                "cmake",
+                'case "$*" in *--fresh* | *--build*) exit 0 ;; esac; exit 1',
+            ),  # in a moved tree
+            (
+                "npm",
+                f"echo x >>{self.path('builds')}\n"
+                "[ $1 != run ] || { mkdir -p ../build/lab && echo page >../build/lab/index.html; }",
+            ),
+        ):
             self.stand_in(name, script + "\n")
         for folder in ("build", "build/release", "build/tests"):
             self.addCleanup(self.held(folder))
@@ -467,7 +668,9 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         # A build that failed leaves no page that a later call takes for a finished one.
         let_go()
         self.write("web/page.ts", "")
-        self.stand_in("npm", "mkdir -p ../build/lab && echo half >../build/lab/index.html\nexit 1\n")
+        self.stand_in(
+            "npm", "mkdir -p ../build/lab && echo half >../build/lab/index.html\nexit 1\n"
+        )
         for _ in range(2):
             done = self.call_with_stand_ins(*call)
             self.assertEqual(done.returncode, 1, done.stderr)
@@ -483,7 +686,7 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         self.assertEqual(self.word(), "first")
 
     def test_reports_of_progress_end_with_a_killed_call_that_its_caller_has_not_noticed(self):
-        self.stand_in("sleep", 'exec /bin/sleep 0.1\n')
+        self.stand_in("sleep", "exec /bin/sleep 0.1\n")
         path = self.path("bin") + ":" + os.environ["PATH"]
         started = self.start_a_build_that_waits(env=dict(os.environ, PATH=path))
         started.kill()  # from now on it is a zombie, since nothing waits for it
@@ -504,54 +707,88 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         self.assertEqual(self.word(), "third")
 
     def on_a_small_disk(self, script):
-        """Runs a script of sh in which build is a disk of 16 kB and ./swirl the launcher; its output and errors in one.
-        The script changes the disk with `change OPTIONS`."""
+        """Runs a script of sh in which build is a disk of 16 kB and ./swirl the launcher; its
+        output and errors in one. The script changes the disk with `change OPTIONS`."""
         os.makedirs(self.path("build"))
-        # The old options of the disk name an owner without a number in the new namespace, so they are ignored.
+        # The old options of the disk name an owner without a number in the new namespace, so they
+        # are ignored.
         before = """change() { mount --options-mode ignore -t tmpfs -o "remount,$1" swirl build || fail; }
 fail() { echo "cannot mount"; exit; }
 cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
 """
-        done = subprocess.run(["unshare", "--map-root-user", "--mount", "sh", "-c", before + script, "sh", self.folder],
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=HANG)
+        done = subprocess.run(
+            [
+                "unshare",
+                "--map-root-user",
+                "--mount",
+                "sh",
+                "-c",
+                before + script,
+                "sh",
+                self.folder,
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=HANG,
+        )
         if done.stdout.startswith("unshare: ") or "cannot mount\n" in done.stdout:
             self.skipTest("no small disk can be mounted here: " + done.stdout)
         return done.stdout
 
     def test_a_full_disk_leaves_nothing_that_a_later_call_takes_for_finished(self):
-        said = self.on_a_small_disk("""for size in 16k 64k 150k 250k 350k 450k 600k; do
+        said = self.on_a_small_disk(
+            """for size in 16k 64k 150k 250k 350k 450k 600k; do
             change size=$size; ./swirl; echo "code $?"; done
-        change size=100m; ./swirl""")
+        change size=100m; ./swirl"""
+        )
         self.assertRegex(said, r"first \d+\n\Z")
         codes = re.findall(r"^code (\d+)$", said, re.M)
-        self.assertEqual(codes, sorted(codes, reverse=True))  # it builds as soon as the disk suffices
+        self.assertEqual(
+            codes, sorted(codes, reverse=True)
+        )  # it builds as soon as the disk suffices
         self.assertIn("1", codes)
         self.assertLessEqual(set(codes), {"0", "1"})
         errors = re.findall(r"^error: .*$", said, re.M)
         self.assertEqual(len(errors), codes.count("1"), said)
         for error in errors:
-            self.assertRegex(error, "^error: cannot build: no space is left in '.*/build/release'.$")
+            self.assertRegex(
+                error, "^error: cannot build: no space is left in '.*/build/release'.$"
+            )
 
     def test_a_read_only_tree_runs_what_is_built_and_reports_what_is_not(self):
-        said = self.on_a_small_disk("""change size=100m; ./swirl
+        said = self.on_a_small_disk(
+            """change size=100m; ./swirl
         change ro; ./swirl; echo "code $?"; touch src/main.cpp; ./swirl; echo "code $?"
-        umount build; mount -t tmpfs -o ro swirl build || fail; ./swirl; echo "code $?" """)
+        umount build; mount -t tmpfs -o ro swirl build || fail; ./swirl; echo "code $?"
+        """
+        )
         built, stale, empty = re.split(r"code \d\n", said)[:3]
         self.assertEqual(re.findall(r"code (\d)", said), ["0", "1", "1"], said)
-        self.assertRegex(stale, r"\Aerror: cannot build: '.*' cannot be written\.\nhint: [^\n]*\n\Z")
+        self.assertRegex(
+            stale, r"\Aerror: cannot build: '.*' cannot be written\.\nhint: [^\n]*\n\Z"
+        )
         self.assertRegex(empty, r"\Aerror: cannot write to [^\n]*\n\Z")
 
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
-        self.write("packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n"
-                               "[images]\ng++\n")
+        self.write(
+            "packages",
+            "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n" "[images]\ng++\n",
+        )
         self.stand_in("id", "echo 0\n")
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')
-        for call, wanted in ((["run"], None), (["image"], None), (["movie", "--help"], None),
-                             (["image", "--", "--movies"], None),
-                             (["movie"], "no-camera"), (["movie"], None), (["paper"], "no-painter"),
-                             (["paper", "--movies"], "no-camera no-painter"),
-                             (["image", "--over", "p.jpg"], "no-camera")):
+        for call, wanted in (
+            (["run"], None),
+            (["image"], None),
+            (["movie", "--help"], None),
+            (["image", "--", "--movies"], None),
+            (["movie"], "no-camera"),
+            (["movie"], None),
+            (["paper"], "no-painter"),
+            (["paper", "--movies"], "no-camera no-painter"),
+            (["image", "--over", "p.jpg"], "no-camera"),
+        ):
             with self.subTest(call):
                 done = self.call_with_stand_ins(*call)
                 self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
@@ -559,8 +796,10 @@ cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
                 if os.path.exists(self.path("asked")):
                     asked = read_text(self.path("asked")).splitlines()
                     os.remove(self.path("asked"))
-                self.assertEqual([line.split("--no-install-recommends ")[1] for line in asked],
-                                 [wanted] if wanted else [])
+                self.assertEqual(
+                    [line.split("--no-install-recommends ")[1] for line in asked],
+                    [wanted] if wanted else [],
+                )
 
     def test_a_subcommand_runs_without_its_packages(self):
         self.write("packages", "[build]\ng++\n[movies]\nno-camera\n")
@@ -571,36 +810,50 @@ cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
 
     def test_python_finds_the_module(self):
         self.copy("bindings/python/python.sh")
-        self.write("CMakeLists.txt", CMAKE + """add_custom_target(swirl_python VERBATIM
+        self.write(
+            "CMakeLists.txt",
+            CMAKE
+            + """add_custom_target(swirl_python VERBATIM
   COMMAND ${CMAKE_COMMAND} -E copy ${PROJECT_SOURCE_DIR}/bindings/python/swirl.py python/swirl.py)
-""")
+""",
+        )
         for word in ("first", "second"):
             self.write("bindings/python/swirl.py", f"word = {word!r}\n")
             for _ in range(2):
-                done = self.call("python", "-c",
-                                 "import swirl, sys; print(swirl.word, sys.executable, sys.argv[1:])",
-                                 "a b")
+                done = self.call(
+                    "python",
+                    "-c",
+                    "import swirl, sys; print(swirl.word, sys.executable, sys.argv[1:])",
+                    "a b",
+                )
                 self.assertEqual(done.stdout, f"{word} /usr/bin/python3 ['a b']\n", done.stderr)
         # The module has its own build.
         self.assertFalse(os.path.exists(self.path("build/release/swirl")))
         self.assertEqual(self.word(), "first")
 
     def test_a_long_build_prints_its_progress(self):
-        # The launcher reports when its sleep has ended: here when the build has begun its second step, which waits for
-        # the second sleep.
+        # The launcher reports when its sleep has ended: here when the build has begun its second
+        # step, which waits for the second sleep.
         self.write("slower.sh", "touch begun\nuntil [ -e slept-twice ]; do sleep 0.05; done\n")
-        self.stand_in("sleep", f"""[ "$1" = 10 ] || exec /bin/sleep $1
+        self.stand_in(
+            "sleep",
+            f"""[ "$1" = 10 ] || exec /bin/sleep $1
 cd {self.path("build/release")}
 while ! [ -e begun ]; do [ -d {self.folder} ] || exit; /bin/sleep 0.05; done
 [ ! -e slept ] || touch slept-twice
 touch slept
-""")
-        self.write("CMakeLists.txt", CMAKE + """add_custom_command(OUTPUT slow.txt VERBATIM
+""",
+        )
+        self.write(
+            "CMakeLists.txt",
+            CMAKE
+            + """add_custom_command(OUTPUT slow.txt VERBATIM
   COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
 add_custom_command(OUTPUT slower.txt DEPENDS slow.txt VERBATIM
   COMMAND sh ${PROJECT_SOURCE_DIR}/slower.sh COMMAND ${CMAKE_COMMAND} -E touch slower.txt)
 add_custom_target(slow ALL DEPENDS slower.txt)
-""")
+""",
+        )
         self.assertRegex(self.call_with_stand_ins().stderr, r"building: [1-9] of \d, \d\d %\n")
 
 

@@ -7,7 +7,7 @@ import unittest
 from program import ONE_ERROR, InFolder, read_json, read_rows, read_text, swirl
 
 DISCS, SWIRLS, FRAMES, SKIP = 24, 40, 511, 10
-SCALE, CENTRE = 20.0, (300.0, 280.0)   # pixels
+SCALE, CENTRE = 20.0, (300.0, 280.0)  # pixels
 AMPLITUDE, RADIUS, OMEGA = 1.892, 8.6, 11.81
 FPS = FRAMES * OMEGA / (2.0 * math.pi)  # of the camera, in 1/s
 LIST = "slip,pinned,temperature,flow"
@@ -26,24 +26,49 @@ class MeasureTest(InFolder):
         self.assert_fails(2, "measure", "--measure", "slip", says="missing required argument FILE")
 
     def answer(self):
-        """Results from the engine's own frames, and the positions in disc radii: {frame: {disc: (x, y)}}."""
+        """Results from the engine's own frames, and the positions in disc radii: {frame: {disc: (x,
+        y)}}."""
         if MeasureTest.table is None:
             recording = self.path("t.h5")
-            self.assert_works("run", "--discs", DISCS, "--periods", SWIRLS, "--frames", FRAMES, "--trajectory",
-                              recording, "--quiet")
-            exact = self.assert_works("measure", recording, "--measure", LIST, "--warmup", SKIP, "--json", "-",
-                                      "--quiet", "--tables", self.path("exact"))
+            self.assert_works(
+                "run",
+                "--discs",
+                DISCS,
+                "--periods",
+                SWIRLS,
+                "--frames",
+                FRAMES,
+                "--trajectory",
+                recording,
+                "--quiet",
+            )
+            exact = self.assert_works(
+                "measure",
+                recording,
+                "--measure",
+                LIST,
+                "--warmup",
+                SKIP,
+                "--json",
+                "-",
+                "--quiet",
+                "--tables",
+                self.path("exact"),
+            )
             flow = read_text(self.path("exact/flow.csv"))
-            said = swirl("export", recording, "--format", "csv", "--scale", 1, "--out",
-                         self.path("t.csv")).stdout
+            said = swirl(
+                "export", recording, "--format", "csv", "--scale", 1, "--out", self.path("t.csv")
+            ).stdout
             middle = float(said.split("pixel ")[1].split(",")[0])
             table = {}
             with open(self.path("t.csv"), encoding="utf-8") as opened:
                 next(opened)
                 for line in opened:
                     frame, disc, x, y = line.split(",")
-                    table.setdefault(int(frame), {})[int(disc)] = (float(x) - middle,
-                                                                   middle - float(y))
+                    table.setdefault(int(frame), {})[int(disc)] = (
+                        float(x) - middle,
+                        middle - float(y),
+                    )
             MeasureTest.table = (json.loads(exact.stdout), flow, table)
         return MeasureTest.table
 
@@ -56,12 +81,22 @@ class MeasureTest(InFolder):
                     opened.write(f"{frame},{disc},{px!r},{CENTRE[1] - SCALE * y!r}\n")
 
     def call(self, *more, **changed):
-        options = {"camera-fps": FPS, "scale": SCALE, "omega": OMEGA, "centre": "%g,%g" % CENTRE,
-                   "phase": 0, "amplitude": AMPLITUDE, "container-radius": RADIUS, "warmup": SKIP,
-                   "measure": LIST}
+        options = {
+            "camera-fps": FPS,
+            "scale": SCALE,
+            "omega": OMEGA,
+            "centre": "%g,%g" % CENTRE,
+            "phase": 0,
+            "amplitude": AMPLITUDE,
+            "container-radius": RADIUS,
+            "warmup": SKIP,
+            "measure": LIST,
+        }
         options.update({name.replace("_", "-"): value for name, value in changed.items()})
         arguments = [word for name, value in options.items() for word in ("--" + name, value)]
-        return swirl("measure", self.path("tracks.csv"), *arguments, "--json", "-", "--quiet", *more)
+        return swirl(
+            "measure", self.path("tracks.csv"), *arguments, "--json", "-", "--quiet", *more
+        )
 
     def measured(self, *more, **changed):
         done = self.call(*more, **changed)
@@ -72,17 +107,26 @@ class MeasureTest(InFolder):
         """The same motion, with velocities from differences of positions: no statistical error."""
         exact = self.answer()[0]
         for name in ("mean_by_time", "rigid_by_time"):
-            self.assertAlmostEqual(found["rotation"][name]["mean"], exact["rotation"][name]["mean"],
-                                   delta=tolerance)
+            self.assertAlmostEqual(
+                found["rotation"][name]["mean"], exact["rotation"][name]["mean"], delta=tolerance
+            )
         for name in ("cluster", "pinned_region", "cluster_perimeter"):
-            self.assertAlmostEqual(found["measured"]["slip"][name]["mean"] /
-                                   exact["measured"]["slip"][name]["mean"], 1.0, delta=tolerance)
+            self.assertAlmostEqual(
+                found["measured"]["slip"][name]["mean"] / exact["measured"]["slip"][name]["mean"],
+                1.0,
+                delta=tolerance,
+            )
         for name, delta in (("pinning", 3.0), ("depinning", 3.0)):
-            self.assertAlmostEqual(found["measured"]["pinned"][name]["mean"],
-                                   exact["measured"]["pinned"][name]["mean"], delta=delta)
+            self.assertAlmostEqual(
+                found["measured"]["pinned"][name]["mean"],
+                exact["measured"]["pinned"][name]["mean"],
+                delta=delta,
+            )
         # A collision between two frames is averaged: some energy is always lost, never gained.
-        share = (found["measured"]["temperature"]["granular"]["mean"] /
-                 exact["measured"]["temperature"]["granular"]["mean"])
+        share = (
+            found["measured"]["temperature"]["granular"]["mean"]
+            / exact["measured"]["temperature"]["granular"]["mean"]
+        )
         self.assertTrue(0.85 < share < 1.0, share)
         return found
 
@@ -99,7 +143,7 @@ class MeasureTest(InFolder):
                 for a, b in zip(line.split(",")[3:5], exact.split(",")[3:5]):
                     squares += float(b) ** 2
                     differences += (float(a) - float(b)) ** 2
-        self.assertLess(differences, 0.01 ** 2 * squares)
+        self.assertLess(differences, 0.01**2 * squares)
 
     def test_mirrored_tracks_give_the_same_results(self):
         self.write(self.answer()[2], mirrored=True)
@@ -116,7 +160,10 @@ class MeasureTest(InFolder):
         self.assertEqual(found[1]["frames"], 5 * FRAMES)
         self.assertEqual(found[1]["frames"], found[0]["frames"])
         # The clock of a frame is a rounded difference.
-        ratio = found[1]["rotation"]["mean_by_time"]["mean"] / found[0]["rotation"]["mean_by_time"]["mean"]
+        ratio = (
+            found[1]["rotation"]["mean_by_time"]["mean"]
+            / found[0]["rotation"]["mean_by_time"]["mean"]
+        )
         self.assertAlmostEqual(ratio, 1.0, delta=1e-9)
 
     def rejected(self, *words, options=(), **changed):
@@ -139,19 +186,40 @@ class MeasureTest(InFolder):
         wrong("protrude", "without --clockwise", options=["--clockwise"], phase=180)
         wrong("protrude", "they would touch", scale=0.9 * SCALE)
         touch = wrong("overlap", "--scale", scale=2 * SCALE)
-        self.assertAlmostEqual(float(touch.split("hint: with --scale ")[1].split(" ")[0]), SCALE, delta=0.5)
+        self.assertAlmostEqual(
+            float(touch.split("hint: with --scale ")[1].split(" ")[0]), SCALE, delta=0.5
+        )
         wrong("protrude", "all the way round; --container-radius", container_radius=8)
         wrong("hardly ever come near the wall", "--container-radius 10", container_radius=10)
-        wrong("hardly ever come near the wall", scale=0.5 * SCALE, container_radius=2 * RADIUS,
-              amplitude=2 * AMPLITUDE)
+        wrong(
+            "hardly ever come near the wall",
+            scale=0.5 * SCALE,
+            container_radius=2 * RADIUS,
+            amplitude=2 * AMPLITUDE,
+        )
         wrong("protrude", "--amplitude", amplitude=0)
         wrong("protrude", "--omega", omega=0.9 * OMEGA)
         wrong("protrude", "it is the --centre", centre="330,280")
         # --max-invalid 1 accepts everything.
         self.measured(max_invalid=1, phase=75, **good)
-        report = swirl("measure", self.path("tracks.csv"), "--camera-fps", FPS, "--scale", SCALE,
-                       "--omega", OMEGA, "--centre", "%g,%g" % CENTRE, "--amplitude", AMPLITUDE,
-                       "--container-radius", RADIUS, "--phase", 6)
+        report = swirl(
+            "measure",
+            self.path("tracks.csv"),
+            "--camera-fps",
+            FPS,
+            "--scale",
+            SCALE,
+            "--omega",
+            OMEGA,
+            "--centre",
+            "%g,%g" % CENTRE,
+            "--amplitude",
+            AMPLITUDE,
+            "--container-radius",
+            RADIUS,
+            "--phase",
+            6,
+        )
         self.assertIn("fit the container better with --phase", report.stdout)
 
     def test_dropped_frames_and_swapped_ids_are_repaired(self):
@@ -159,18 +227,25 @@ class MeasureTest(InFolder):
         for k in list(table):
             if k > 3000:
                 table[k] = dict(table[k])
-                table[k][100] = table[k].pop(7)        # found again with another ID
+                table[k][100] = table[k].pop(7)  # found again with another ID
                 table[k][3], table[k][4] = table[k][4], table[k][3]  # identity swap
         for k in (900, 5000, 5001, 5002, 9000):
-            del table[k]                                # dropped frames
+            del table[k]  # dropped frames
         for k in range(7000, 7004):
-            del table[k][9]                             # a disc missing in four frames
-        table[8000][77] = (0.0, 0.0)                    # a spurious detection
+            del table[k][9]  # a disc missing in four frames
+        table[8000][77] = (0.0, 0.0)  # a spurious detection
         self.write(table)
         found = self.assert_like_the_exact(self.measured())
         camera = found["camera"]
-        self.assertEqual((camera["relabelled"], camera["filled_positions"], camera["dropped_positions"],
-                          camera["breaks"]), (3, 5 * DISCS + 4, 1, 0))
+        self.assertEqual(
+            (
+                camera["relabelled"],
+                camera["filled_positions"],
+                camera["dropped_positions"],
+                camera["breaks"],
+            ),
+            (3, 5 * DISCS + 4, 1, 0),
+        )
 
     def test_discs_may_appear_and_disappear(self):
         table = {k: dict(f) for k, f in self.answer()[2].items()}
@@ -187,10 +262,24 @@ class MeasureTest(InFolder):
     def test_frames_at_the_vertices_alone_warn_that_rolling_is_invisible(self):
         for frames, remark in ((30, "no sphere rolls in any of the frames"), (31, "")):
             recording = self.path(f"{frames}.h5")
-            self.assert_works("run", "--preset", "experiment", "--discs", 8, "--periods", 4, "--frames", frames,
-                              "--trajectory", recording, "--quiet")
-            found = json.loads(swirl("measure", recording, "--measure", "rolling", "--json", "-").stdout)
-            self.assertEqual(found["remark"][:len(remark) or None], remark)
+            self.assert_works(
+                "run",
+                "--preset",
+                "experiment",
+                "--discs",
+                8,
+                "--periods",
+                4,
+                "--frames",
+                frames,
+                "--trajectory",
+                recording,
+                "--quiet",
+            )
+            found = json.loads(
+                swirl("measure", recording, "--measure", "rolling", "--json", "-").stdout
+            )
+            self.assertEqual(found["remark"][: len(remark) or None], remark)
             share = found["measured"]["rolling"]["rolling_share"]["mean"]
             self.assertEqual(share > 0.5, not remark)
         done = swirl("measure", self.path("30.h5"), "--measure", "rolling")
@@ -200,13 +289,33 @@ class MeasureTest(InFolder):
         # At 30 frames per period the depinning angle was 133.1 ± 0.6 degrees instead of 5 ± 1.
         names = "pinned,residence,slip,order,density"
         at_400 = "residence (400)"
-        at_511 = "pinned, residence.sensitivity, slip.pinned_region, order.pinned, order.six_pinned (511)"
+        at_511 = (
+            "pinned, residence.sensitivity, slip.pinned_region, order.pinned, "
+            "order.six_pinned (511)"
+        )
         # A recording of few periods lacks a frame: it has a little less than 511 per period.
-        for frames, missing in ((30, ("slip.resident, order.resident (120)", at_400, at_511)),
-                                (128, (at_400, at_511)), (400, (at_511,)), (511, ())):
+        for frames, missing in (
+            (30, ("slip.resident, order.resident (120)", at_400, at_511)),
+            (128, (at_400, at_511)),
+            (400, (at_511,)),
+            (511, ()),
+        ):
             recording = self.path(f"{frames}.h5")
-            self.assert_works("run", "--discs", 20, "--periods", 4, "--warmup", 0, "--frames", frames, "--trajectory",
-                              recording, "--quiet", "--overwrite")
+            self.assert_works(
+                "run",
+                "--discs",
+                20,
+                "--periods",
+                4,
+                "--warmup",
+                0,
+                "--frames",
+                frames,
+                "--trajectory",
+                recording,
+                "--quiet",
+                "--overwrite",
+            )
             done = swirl("measure", recording, "--measure", names, "--json", "-")
             found = json.loads(done.stdout)
             for reason in missing:
@@ -220,30 +329,96 @@ class MeasureTest(InFolder):
             self.assertEqual(measured["residence"]["share"]["mean"] is None, frames < 400)
             self.assertEqual(measured["order"]["pinned"]["mean"] is None, frames < 511)
             # Columns of tables are missing as rows are.
-            self.assertEqual(measured["residence"]["sensitivity"]["share"].count(None), 0 if frames == 511 else 9)
+            self.assertEqual(
+                measured["residence"]["sensitivity"]["share"].count(None), 0 if frames == 511 else 9
+            )
             self.assertIsNotNone(measured["order"]["all"]["mean"])
             self.assertIsNotNone(measured["slip"]["cluster"]["mean"])
 
     def test_tracks_with_few_frames_per_period_have_no_rotation(self):
-        # Differences of positions miss collisions: with 2 frames per period ϖ/Ω was 0.08 instead of 0.20.
+        # Differences of positions miss collisions: with 2 frames per period ϖ/Ω was 0.08 instead of
+        # 0.20.
         for frames, known in ((2, False), (8, False), (16, True)):
-            self.assert_works("run", "--discs", 5, "--periods", 60, "--frames", frames, "--trajectory", self.path("t.h5"),
-                              "--quiet", "--overwrite")
-            self.assert_works("export", self.path("t.h5"), "--format", "csv", "--out", self.path("t.csv"), "--quiet")
-            done = self.assert_works("measure", self.path("t.csv"), "--camera-fps", frames / 11.866071, "--scale", 20,
-                                     "--omega", 0.5295084874, "--centre", "209.84,209.84", "--amplitude", 1.892,
-                                     "--container-radius", 8.6)
+            self.assert_works(
+                "run",
+                "--discs",
+                5,
+                "--periods",
+                60,
+                "--frames",
+                frames,
+                "--trajectory",
+                self.path("t.h5"),
+                "--quiet",
+                "--overwrite",
+            )
+            self.assert_works(
+                "export",
+                self.path("t.h5"),
+                "--format",
+                "csv",
+                "--out",
+                self.path("t.csv"),
+                "--quiet",
+            )
+            done = self.assert_works(
+                "measure",
+                self.path("t.csv"),
+                "--camera-fps",
+                frames / 11.866071,
+                "--scale",
+                20,
+                "--omega",
+                0.5295084874,
+                "--centre",
+                "209.84,209.84",
+                "--amplitude",
+                1.892,
+                "--container-radius",
+                8.6,
+            )
             self.assertEqual("ϖ/Ω = n/a" not in done.stdout, known, done.stdout)
             self.assertEqual("the rotation (16)" not in done.stderr, known, done.stderr)
 
     def test_positions_alone_have_no_moments_of_velocities(self):
-        # Differences of positions miss collisions: at this rate the granular temperature of 48 discs was 66 errors off.
-        # Tracks with 100 or more frames per period have smoothed velocities.
-        self.assert_works("run", "--discs", 12, "--periods", 6, "--frames", 64, "--trajectory", self.path("t.h5"), "--quiet")
-        self.assert_works("export", self.path("t.h5"), "--format", "csv", "--out", self.path("t.csv"), "--quiet")
-        done = self.assert_works("measure", self.path("t.csv"), "--camera-fps", 64 / 11.866071, "--scale", 20, "--omega",
-                                 0.5295084874, "--centre", "209.84,209.84", "--amplitude", 1.892, "--container-radius", 8.6,
-                                 "--measure", "temperature,centre,profile", "--json", "-")
+        # Differences of positions miss collisions: at this rate the granular temperature of 48
+        # discs was 66 errors off. Tracks with 100 or more frames per period have smoothed
+        # velocities.
+        self.assert_works(
+            "run",
+            "--discs",
+            12,
+            "--periods",
+            6,
+            "--frames",
+            64,
+            "--trajectory",
+            self.path("t.h5"),
+            "--quiet",
+        )
+        self.assert_works(
+            "export", self.path("t.h5"), "--format", "csv", "--out", self.path("t.csv"), "--quiet"
+        )
+        done = self.assert_works(
+            "measure",
+            self.path("t.csv"),
+            "--camera-fps",
+            64 / 11.866071,
+            "--scale",
+            20,
+            "--omega",
+            0.5295084874,
+            "--centre",
+            "209.84,209.84",
+            "--amplitude",
+            1.892,
+            "--container-radius",
+            8.6,
+            "--measure",
+            "temperature,centre,profile",
+            "--json",
+            "-",
+        )
         found = json.loads(done.stdout)["measured"]
         self.assertIsNone(found["temperature"]["granular"]["mean"])
         self.assertIsNone(found["centre"]["coriolis"]["mean"])
@@ -254,11 +429,35 @@ class MeasureTest(InFolder):
 
     def test_exports_have_the_pinned_and_resident_discs_if_they_are_known(self):
         for frames, known in ((30, False), (511, True)):
-            recording, table, dump, xyz = (self.path(f"e{frames}{end}") for end in (".h5", ".csv", ".dump", ".xyz"))
-            swirl("run", "--discs", 20, "--periods", 2, "--warmup", 0, "--frames", frames, "--trajectory", recording,
-                  "--quiet")
+            recording, table, dump, xyz = (
+                self.path(f"e{frames}{end}") for end in (".h5", ".csv", ".dump", ".xyz")
+            )
+            swirl(
+                "run",
+                "--discs",
+                20,
+                "--periods",
+                2,
+                "--warmup",
+                0,
+                "--frames",
+                frames,
+                "--trajectory",
+                recording,
+                "--quiet",
+            )
             for form, out in (("table", table), ("lammps", dump), ("xyz", xyz)):
-                done = swirl("export", recording, "--format", form, "--out", out, "--quiet", "--range", "0:599")
+                done = swirl(
+                    "export",
+                    recording,
+                    "--format",
+                    form,
+                    "--out",
+                    out,
+                    "--quiet",
+                    "--range",
+                    "0:599",
+                )
                 self.assertEqual(done.returncode, 0 if known else 2, done.stderr)
                 if not known:
                     done = swirl("export", recording, "--format", form, "--out", out, "--quiet")
@@ -278,13 +477,33 @@ class MeasureTest(InFolder):
             self.assertEqual([atom.split()[-2] for atom in atoms], [row["pinned"] for row in later])
 
     def test_all_frames_of_a_slow_recording_are_used(self):
-        # One frame per period: an average of every 100th had one of 100, and the effective samples of all.
+        # One frame per period: an average of every 100th had one of 100, and the effective samples
+        # of all.
         recording = self.path("slow.h5")
-        swirl("run", "--discs", 20, "--periods", 100, "--warmup", 0, "--frames", 1, "--trajectory", recording,
-              "--quiet")
-        found = json.loads(swirl("measure", recording, "--measure", "order,packing,pair_correlation", "--json",
-                                 "-").stdout)["measured"]
-        for name, row in (("order", "all"), ("packing", "all"), ("pair_correlation", "inner_packing")):
+        swirl(
+            "run",
+            "--discs",
+            20,
+            "--periods",
+            100,
+            "--warmup",
+            0,
+            "--frames",
+            1,
+            "--trajectory",
+            recording,
+            "--quiet",
+        )
+        found = json.loads(
+            swirl(
+                "measure", recording, "--measure", "order,packing,pair_correlation", "--json", "-"
+            ).stdout
+        )["measured"]
+        for name, row in (
+            ("order", "all"),
+            ("packing", "all"),
+            ("pair_correlation", "inner_packing"),
+        ):
             estimate = found[name][row]
             self.assertGreater(estimate["effective_samples"], 20)
             # The scatter of one frame is below 1, so the error of the mean of 20 is below 1/√20.
@@ -292,27 +511,43 @@ class MeasureTest(InFolder):
 
     def test_missing_averages_of_a_short_recording_are_one_line(self):
         recording = self.path("short.h5")
-        swirl("run", "--discs", 8, "--periods", 2, "--warmup", 0, "--trajectory", recording, "--quiet")
+        swirl(
+            "run", "--discs", 8, "--periods", 2, "--warmup", 0, "--trajectory", recording, "--quiet"
+        )
         done = self.assert_works("measure", recording, "--measure", "all", "--warmup", 1.96)
         self.assertEqual(done.stdout.count("n/a"), 1, done.stdout)
         self.assertRegex(done.stdout, r"(?m)^  n/a +\d+ of \d+ averages$")
         self.assertIn("\n  average     1 frame\n", done.stdout)
 
     def test_fields_errors_and_balances_are_in_one_file(self):
-        self.assert_works("run", "--discs", 20, "--periods", 14, "--warmup", 2, "--measure", "fields", "--json",
-                          self.path("fields.json"), "--quiet")
+        self.assert_works(
+            "run",
+            "--discs",
+            20,
+            "--periods",
+            14,
+            "--warmup",
+            2,
+            "--measure",
+            "fields",
+            "--json",
+            self.path("fields.json"),
+            "--quiet",
+        )
         fields = read_json(self.path("fields.json"))["measured"]["fields"]
         for name in ("m_frame_2", "m_frame_4", "lab_2"):
             columns = fields[name]
             self.assertEqual({len(column) for column in columns.values()}, {400}, name)
             values = {column for column in columns if not column.endswith("_error")} - {"x", "y"}
-            self.assertEqual(set(columns) - values - {"x", "y"}, {f"{value}_error" for value in values})
+            self.assertEqual(
+                set(columns) - values - {"x", "y"}, {f"{value}_error" for value in values}
+            )
             self.assertEqual(len(set(zip(columns["x"], columns["y"]))), 400)
-        # The lab's square contains all kernels but for small parts at its edges. Discs visit all places between
-        # the points of the grid.
+        # The lab's square contains all kernels but for small parts at its edges. Discs visit all
+        # places between the points of the grid.
         lab = fields["lab_2"]
         spacing = lab["x"][1] - lab["x"][0]
-        self.assertAlmostEqual(sum(lab["density"]) * spacing ** 2 / 20, 1.0, delta=0.02)
+        self.assertAlmostEqual(sum(lab["density"]) * spacing**2 / 20, 1.0, delta=0.02)
         for balance in ("mass", "momentum", "spin"):
             # Relative to the scale of rounding errors, some 10^4 of which add up.
             self.assertLess(fields[f"{balance}_residual"], 1e-12)
@@ -322,8 +557,8 @@ class MeasureTest(InFolder):
         self.rejected("a single frame", warmup=0, measure="density")
 
     def test_discs_with_changing_ids_have_no_tracks(self):
-        # Every disc gets a new ID every ten frames, at a position where no disc was: every second group
-        # of ten frames is dropped.
+        # Every disc gets a new ID every ten frames, at a position where no disc was: every second
+        # group of ten frames is dropped.
         table = {}
         for k, frame in self.answer()[2].items():
             if k < 2000 and k // 10 % 2 == 0:

@@ -18,24 +18,42 @@ ONE_ERROR = r"\A[^\n]+\.\n(hint: [^\n]+\.\n)?\Z"
 
 
 def commands_in_the_documents():
-    """The words of every command in the README and in docs/, on a line of its own or in backquotes."""
-    for path in [os.path.join(SOURCE, "README.md"),
-                 *sorted(glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True))]:
+    """The words of every command in the README and in docs/, on a line of its own or in
+    backquotes."""
+    for path in [
+        os.path.join(SOURCE, "README.md"),
+        *sorted(glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True)),
+    ]:
         text = read_text(path).replace("\\\n", " ")
         for command in re.findall(r"(?:^|`)((?:(?:\./)?swirl|ffmpeg|node) [^`\n]+)", text, re.M):
             yield shlex.split(command.replace("…", ""), comments=True)
 
 
 def swirl(*arguments, **more):
-    return subprocess.run([SWIRL, "movie", *arguments], capture_output=True, text=True,
-                          timeout=HANG, **more)
+    return subprocess.run(
+        [SWIRL, "movie", *arguments], capture_output=True, text=True, timeout=HANG, **more
+    )
 
 
 def probe(path, entries):
     return subprocess.run(
-        ["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v:0", "-of", "csv=p=0",
-         "-show_entries", entries, path], capture_output=True, text=True,
-        check=True).stdout.strip()
+        [
+            "ffprobe",
+            "-v",
+            "error",
+            "-count_frames",
+            "-select_streams",
+            "v:0",
+            "-of",
+            "csv=p=0",
+            "-show_entries",
+            entries,
+            path,
+        ],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.strip()
 
 
 def png_size(path):
@@ -55,17 +73,48 @@ class MovieTest(InFolder):
 
     def test_count_and_duration_are_exact(self):
         out = self.path("x.mp4")
-        result = swirl("--discs", "12", "--seconds", "0.7", "--fps", "30", "--size", "320x180",
-                       "--start", "1", "--frame", "both", "--plot", "--out", out)
+        result = swirl(
+            "--discs",
+            "12",
+            "--seconds",
+            "0.7",
+            "--fps",
+            "30",
+            "--size",
+            "320x180",
+            "--start",
+            "1",
+            "--frame",
+            "both",
+            "--plot",
+            "--out",
+            out,
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(probe(out, "stream=width,height,r_frame_rate,duration,nb_read_frames"),
-                         "320,180,30/1,0.700000,21")
+        self.assertEqual(
+            probe(out, "stream=width,height,r_frame_rate,duration,nb_read_frames"),
+            "320,180,30/1,0.700000,21",
+        )
         self.assertIn("frames      21, 30 per second", result.stdout)
 
     def test_duration_in_periods(self):
         out = self.path("x.mp4")
-        result = swirl("--discs", "12", "--periods", "0.25", "--pace", "0.5", "--fps", "20",
-                       "--size", "64x64", "--start", "0", "--out", out)
+        result = swirl(
+            "--discs",
+            "12",
+            "--periods",
+            "0.25",
+            "--pace",
+            "0.5",
+            "--fps",
+            "20",
+            "--size",
+            "64x64",
+            "--start",
+            "0",
+            "--out",
+            out,
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(probe(out, "stream=duration,nb_read_frames"), "0.500000,10")
 
@@ -73,38 +122,89 @@ class MovieTest(InFolder):
         # With another number of cores, frames are distributed differently to the workers.
         for ending, fps in (("mp4", "60"), ("webm", "60"), ("gif", "50")):
             both = []
-            for name, cores in (("one.", {min(os.sched_getaffinity(0))}),
-                                ("two.", os.sched_getaffinity(0))):
+            for name, cores in (
+                ("one.", {min(os.sched_getaffinity(0))}),
+                ("two.", os.sched_getaffinity(0)),
+            ):
                 out = self.path(name + ending)
-                result = swirl("--discs", "20", "--seconds", "0.3", "--fps", fps, "--size",
-                               "320x240", "--start", "1", "--trails", "--color", "spin", "--out",
-                               out, preexec_fn=lambda cores=cores: os.sched_setaffinity(0, cores))
+                result = swirl(
+                    "--discs",
+                    "20",
+                    "--seconds",
+                    "0.3",
+                    "--fps",
+                    fps,
+                    "--size",
+                    "320x240",
+                    "--start",
+                    "1",
+                    "--trails",
+                    "--color",
+                    "spin",
+                    "--out",
+                    out,
+                    preexec_fn=lambda cores=cores: os.sched_setaffinity(0, cores),
+                )
                 self.assertEqual(result.returncode, 0, result.stderr)
                 both.append(read_bytes(out))
             self.assertTrue(both[0] == both[1], ending)
 
     def test_frames_need_no_ffmpeg(self):
-        result = swirl("--discs", "5", "--seconds", "0.1", "--fps", "30", "--size", "65x33",
-                       "--start", "0", "--frame-files", self.path("frames"),
-                       env={**os.environ, "PATH": self.folder})
+        result = swirl(
+            "--discs",
+            "5",
+            "--seconds",
+            "0.1",
+            "--fps",
+            "30",
+            "--size",
+            "65x33",
+            "--start",
+            "0",
+            "--frame-files",
+            self.path("frames"),
+            env={**os.environ, "PATH": self.folder},
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
         names = sorted(os.listdir(self.path("frames")))
         self.assertEqual(names, [f"frame-{k:06d}.png" for k in (1, 2, 3)])
         self.assertEqual(png_size(self.path("frames/frame-000001.png")), (65, 33))
 
     def test_tiny_and_huge_movies_in_both_themes(self):
-        for size, theme, more in (("16x16", "light", ["--frame", "both", "--plot", "--trails"]),
-                                  ("16x4096", "dark", ["--frame", "m", "--forces", "--plot"]),
-                                  ("3840x2160", "light", ["--frame", "both", "--color", "speed"])):
+        for size, theme, more in (
+            ("16x16", "light", ["--frame", "both", "--plot", "--trails"]),
+            ("16x4096", "dark", ["--frame", "m", "--forces", "--plot"]),
+            ("3840x2160", "light", ["--frame", "both", "--color", "speed"]),
+        ):
             out = self.path("x.mp4")
-            result = swirl("--discs", "12", "--seconds", "0.1", "--fps", "20", "--start", "1",
-                           "--size", size, "--theme", theme, "--out", out, *more)
+            result = swirl(
+                "--discs",
+                "12",
+                "--seconds",
+                "0.1",
+                "--fps",
+                "20",
+                "--start",
+                "1",
+                "--size",
+                size,
+                "--theme",
+                theme,
+                "--out",
+                out,
+                *more,
+            )
             self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertEqual(probe(out, "stream=width,height,nb_read_frames"), size.replace("x", ",") + ",2")
+            self.assertEqual(
+                probe(out, "stream=width,height,nb_read_frames"), size.replace("x", ",") + ",2"
+            )
 
     def test_animation_of_the_readme_is_made_by_the_documented_command(self):
-        call, = [words[1:] for words in commands_in_the_documents()
-                 if words[1] == "movie" and "docs/images/swirl.gif" in words]
+        (call,) = [
+            words[1:]
+            for words in commands_in_the_documents()
+            if words[1] == "movie" and "docs/images/swirl.gif" in words
+        ]
         call[call.index("docs/images/swirl.gif")] = self.path("swirl.gif")
         result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=HANG)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -118,12 +218,18 @@ class MovieTest(InFolder):
         self.assert_looks_like(made, stored)
 
     def assert_looks_like(self, made, stored):
-        """Fonts and versions of cairo may differ, so images are compared by their signal-to-noise ratio.
-        Moved discs reduce it below 25 dB."""
-        seen = subprocess.run(["ffmpeg", "-v", "info", "-i", made, "-i", stored, "-lavfi", "psnr",
-                               "-f", "null", "-"], capture_output=True, text=True, check=True).stderr
+        """Fonts and versions of cairo may differ, so images are compared by their signal-to-noise
+        ratio. Moved discs reduce it below 25 dB."""
+        seen = subprocess.run(
+            ["ffmpeg", "-v", "info", "-i", made, "-i", stored, "-lavfi", "psnr", "-f", "null", "-"],
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stderr
         found = re.search(r"PSNR.* min:(\S+)", seen)
-        self.assertGreater(float(found.group(1)), 25.0, f"{stored} is out of date: repeat the documented command")
+        self.assertGreater(
+            float(found.group(1)), 25.0, f"{stored} is out of date: repeat the documented command"
+        )
 
     def test_every_image_of_the_documents_has_a_documented_command(self):
         made = set()
@@ -132,31 +238,46 @@ class MovieTest(InFolder):
             if "--figure" in words:
                 made |= {f"figure_{word}.png" for word in words}
             # A script of paper/ that draws on its own.
-            made |= {f"{name}.png" for word in words for name in re.findall(r"^paper/(\w+)\.py$", word)}
+            made |= {
+                f"{name}.png" for word in words for name in re.findall(r"^paper/(\w+)\.py$", word)
+            }
         made |= self.screenshots()
         # The gallery has the command next to the name of the image.
         gallery = read_text(os.path.join(SOURCE, "web", "gallery.txt"))
-        made |= {os.path.basename(row[2]) for row in (line.split(" | ") for line in gallery.splitlines()) if len(row) == 3}
-        stored = {name for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
-                if name.endswith((".png", ".gif"))}
+        made |= {
+            os.path.basename(row[2])
+            for row in (line.split(" | ") for line in gallery.splitlines())
+            if len(row) == 3
+        }
+        stored = {
+            name
+            for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
+            if name.endswith((".png", ".gif"))
+        }
         self.assertGreater(len(stored), 5)
         self.assertEqual(stored - made, set())
 
     @staticmethod
     def screenshots():
-        """The images of the browser page, which docs/how-to/browser_page.md makes with one command."""
+        """The images of the browser page, which docs/how-to/browser_page.md makes with one
+        command."""
         with open(os.path.join(SOURCE, "web", "test", "screenshots.mjs"), encoding="utf-8") as file:
             states = re.findall(r'^    \["(\w+)", "', file.read(), re.MULTILINE)
         return {f"lab_{state}.png" for state in states}
 
     def test_images_are_made_by_the_documented_commands(self):
-        calls = {tuple(words[1:]) for words in commands_in_the_documents()
-                 if words[1] == "image" and words[-1].startswith("docs/images/")}
+        calls = {
+            tuple(words[1:])
+            for words in commands_in_the_documents()
+            if words[1] == "image" and words[-1].startswith("docs/images/")
+        }
         self.assertGreater(len(calls), 3)
         for call in calls:
             with self.subTest(call[-1]):
                 made = self.path(os.path.basename(call[-1]))
-                result = subprocess.run([SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=HANG)
+                result = subprocess.run(
+                    [SWIRL, *call[:-1], made], capture_output=True, text=True, timeout=HANG
+                )
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assert_looks_like(made, os.path.join(SOURCE, call[-1]))
 
@@ -182,20 +303,31 @@ class MovieTest(InFolder):
     def test_encoder_of_a_killed_process_does_not_write_into_the_next_movie(self):
         # This encoder sleeps until the next movie has opened its file and written the first frames.
         os.mkdir(self.path("slow"))
-        write_text(self.path("slow/ffmpeg"), "#!/bin/sh\ntouch begun\nwhile ! [ -e wake ]; do sleep 0.01; done\n"
-                                             f'{shutil.which("ffmpeg")} "$@"\ntouch asleep\n')
+        write_text(
+            self.path("slow/ffmpeg"),
+            "#!/bin/sh\ntouch begun\nwhile ! [ -e wake ]; do sleep 0.01; done\n"
+            f'{shutil.which("ffmpeg")} "$@"\ntouch asleep\n',
+        )
         os.chmod(self.path("slow/ffmpeg"), 0o755)
         out = self.path("m.mp4")
         call = ["--seconds", "6", "--size", "640x640", "--quiet", "--out", out]
-        killed = subprocess.Popen([SWIRL, "movie", *call], cwd=self.folder,
-                                  env={**os.environ, "PATH": self.path("slow") + ":" + os.environ["PATH"]})
-        wait_until(lambda: os.path.exists(out + ".partial") and os.path.exists(self.path("begun")), killed)
+        killed = subprocess.Popen(
+            [SWIRL, "movie", *call],
+            cwd=self.folder,
+            env={**os.environ, "PATH": self.path("slow") + ":" + os.environ["PATH"]},
+        )
+        wait_until(
+            lambda: os.path.exists(out + ".partial") and os.path.exists(self.path("begun")), killed
+        )
         killed.kill()
         killed.wait()
         second = subprocess.Popen([SWIRL, "movie", *call])
         self.addCleanup(second.wait)
         self.addCleanup(second.kill)
-        wait_until(lambda: os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") > 50_000, second)
+        wait_until(
+            lambda: os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") > 50_000,
+            second,
+        )
         open(self.path("wake"), "w").close()
         wait_until(lambda: os.path.exists(self.path("asleep")))
         self.assertIsNone(second.poll(), "the second movie ended before the first encoder woke up")
@@ -203,8 +335,15 @@ class MovieTest(InFolder):
         self.assertEqual(probe(out, "stream=nb_read_frames"), "360")
 
     def test_missing_ffmpeg_is_an_error_with_a_hint(self):
-        result = swirl("--discs", "5", "--seconds", "0.1", "--out", self.path("x.mp4"),
-                       env={**os.environ, "PATH": self.folder})
+        result = swirl(
+            "--discs",
+            "5",
+            "--seconds",
+            "0.1",
+            "--out",
+            self.path("x.mp4"),
+            env={**os.environ, "PATH": self.folder},
+        )
         self.assertEqual(result.returncode, 1)
         self.assertIn("apt-get install ffmpeg", result.stderr)
         self.assertEqual(os.listdir(self.folder), [])
@@ -219,12 +358,34 @@ class MovieTest(InFolder):
         out = self.path(name)
         # A separate process group, as a shell creates it: the signal reaches all its processes.
         process = subprocess.Popen(
-            [SWIRL, "movie", "--discs", "48", "--seconds", "400", "--fps", "50", "--size", "160x120",
-             "--start", "0", "--out", out],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, process_group=0)
+            [
+                SWIRL,
+                "movie",
+                "--discs",
+                "48",
+                "--seconds",
+                "400",
+                "--fps",
+                "50",
+                "--size",
+                "160x120",
+                "--start",
+                "0",
+                "--out",
+                out,
+            ],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            process_group=0,
+        )
         # The palette of a GIF depends on all frames, so its file is empty until the end.
         min_size = 0 if name.endswith(".gif") else 1
-        wait_until(lambda: os.path.exists(out + ".partial") and os.path.getsize(out + ".partial") >= min_size, process)
+        wait_until(
+            lambda: os.path.exists(out + ".partial")
+            and os.path.getsize(out + ".partial") >= min_size,
+            process,
+        )
         time.sleep(0.2)
         # Two signals in a row, as timeout(1) sends them.
         os.killpg(process.pid, signal.SIGINT)
@@ -241,9 +402,17 @@ class MovieTest(InFolder):
         script = self.path("bin/ffmpeg")
         write_text(script, "#!/bin/sh\nhead -c 1000 >/dev/null\necho 'out of paint' >&2\nexit 4\n")
         os.chmod(script, 0o755)
-        result = swirl("--discs", "5", "--seconds", "5", "--size", "320x240", "--out",
-                       self.path("x.mp4"),
-                       env={**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]})
+        result = swirl(
+            "--discs",
+            "5",
+            "--seconds",
+            "5",
+            "--size",
+            "320x240",
+            "--out",
+            self.path("x.mp4"),
+            env={**os.environ, "PATH": self.path("bin") + ":" + os.environ["PATH"]},
+        )
         self.assertEqual(result.returncode, 1)
         self.assertIn("out of paint", result.stderr)
         self.assertEqual(result.stderr.count("\n"), 1)
@@ -264,7 +433,9 @@ class MovieTest(InFolder):
         self.assert_usage_error(swirl("--out", self.path("x.gif"), "--fps", "30"), "hundredths")
         self.assert_usage_error(swirl("--out", out, "--seconds", "0"), "0 seconds")
         self.assert_usage_error(swirl("--out", out, "--seconds", "nan"))
-        self.assert_usage_error(swirl("--out", out, "--seconds", "1", "--periods", "1"), "--periods")
+        self.assert_usage_error(
+            swirl("--out", out, "--seconds", "1", "--periods", "1"), "--periods"
+        )
         self.assert_usage_error(swirl("--out", out, "--pace", "-1"))
         self.assert_usage_error(swirl("--out", out, "--start", "-3"), "-3")
         self.assert_usage_error(swirl("--out", out, "--frame", "n"), "'n'", "both")
@@ -274,16 +445,31 @@ class MovieTest(InFolder):
         self.assert_usage_error(swirl("--out", out, "--discs", "70"))
         self.assert_usage_error(swirl("--out", out, "--compare", "70"))
         self.assert_usage_error(swirl("--out", out, "--rolling-ball", "2"), "2")
-        self.assert_usage_error(swirl("--out", self.path("x.gif"), "--seconds", "600", "--size",
-                                     "1920x1080"), "memory")
+        self.assert_usage_error(
+            swirl("--out", self.path("x.gif"), "--seconds", "600", "--size", "1920x1080"), "memory"
+        )
 
     def test_recording_is_shown_to_its_end(self):
-        run = subprocess.run([SWIRL, "run", "--discs", "10", "--periods", "2", "--quiet",
-                              "--trajectory", self.path("run.h5")], capture_output=True, text=True)
+        run = subprocess.run(
+            [
+                SWIRL,
+                "run",
+                "--discs",
+                "10",
+                "--periods",
+                "2",
+                "--quiet",
+                "--trajectory",
+                self.path("run.h5"),
+            ],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(run.returncode, 0, run.stderr)
         out = self.path("x.mp4")
-        result = swirl(self.path("run.h5"), "--pace", "2", "--fps", "20", "--size", "64x64",
-                       "--out", out)
+        result = swirl(
+            self.path("run.h5"), "--pace", "2", "--fps", "20", "--size", "64x64", "--out", out
+        )
         self.assertEqual(result.returncode, 0, result.stderr)
         # Two periods at two per second: the last frame may be just outside the recording.
         self.assertIn(int(probe(out, "stream=nb_read_frames")), (20, 21))
@@ -299,12 +485,26 @@ class MovieTest(InFolder):
             self.skipTest("only root can mount a small disk")
         disk = self.path("disk")
         os.mkdir(disk)
-        if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=64k", "none", disk],
-                          capture_output=True).returncode != 0:
+        if (
+            subprocess.run(
+                ["mount", "-t", "tmpfs", "-o", "size=64k", "none", disk], capture_output=True
+            ).returncode
+            != 0
+        ):
             self.skipTest("a small disk cannot be mounted here")
         try:
-            result = swirl("--discs", "48", "--seconds", "3", "--size", "640x360", "--start", "0",
-                           "--out", os.path.join(disk, "x.mp4"))
+            result = swirl(
+                "--discs",
+                "48",
+                "--seconds",
+                "3",
+                "--size",
+                "640x360",
+                "--start",
+                "0",
+                "--out",
+                os.path.join(disk, "x.mp4"),
+            )
             self.assertEqual(result.returncode, 1, result.stderr)
             self.assertIn("No space left", result.stderr)
             self.assertEqual(os.listdir(disk), [])

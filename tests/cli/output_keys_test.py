@@ -47,17 +47,59 @@ class OutputKeys(InFolder):
         self.assert_documented(keys(rows["pinning"]), "JSON of `swirl run`")
 
     def test_crossing(self):
-        found = json.loads(self.call("crossing", "--from", 36, "--to", 42, "--step", 3, "--events", "2e4",
-                                     "--tolerance", 5, "--json", "-"))
+        found = json.loads(
+            self.call(
+                "crossing",
+                "--from",
+                36,
+                "--to",
+                42,
+                "--step",
+                3,
+                "--events",
+                "2e4",
+                "--tolerance",
+                5,
+                "--json",
+                "-",
+            )
+        )
         self.assertTrue(found["points"])
         self.assert_documented(keys(found), "JSON of `swirl crossing`", "JSON of `swirl run`")
 
     def test_measure(self):
-        self.call("run", "--discs", 12, "--periods", 4, "--warmup", 1, "--frames", 128, "--trajectory", "t.h5")
+        self.call(
+            "run",
+            "--discs",
+            12,
+            "--periods",
+            4,
+            "--warmup",
+            1,
+            "--frames",
+            128,
+            "--trajectory",
+            "t.h5",
+        )
         self.call("export", "t.h5", "--format", "lammps", "--out", "t.lammpstrj")
-        found = json.loads(self.call("measure", "t.lammpstrj", "--omega", 0.529508, "--camera-fps", 128 / 11.866071,
-                                     "--amplitude", 1.892, "--container-radius", 8.6, "--max-invalid", 1,
-                                     "--json", "-"))
+        found = json.loads(
+            self.call(
+                "measure",
+                "t.lammpstrj",
+                "--omega",
+                0.529508,
+                "--camera-fps",
+                128 / 11.866071,
+                "--amplitude",
+                1.892,
+                "--container-radius",
+                8.6,
+                "--max-invalid",
+                1,
+                "--json",
+                "-",
+            )
+        )
         self.assertIsNotNone(found["camera"])
         self.assert_documented(keys(found), "JSON of `swirl measure`", "JSON of `swirl run`")
 

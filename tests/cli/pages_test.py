@@ -1,8 +1,8 @@
 """Every command in a block of the README and of docs/ is valid, and works.
 
-The default suite parses each call of swirl as it is shown, and runs it where that takes little time or
-SHORTER makes it so. Each page is a folder of its own, so a command finds the files of the commands before
-it. The suite `slow` (--all) runs the blocks of each page as they are, with bash.
+The default suite parses each call of swirl as it is shown, and runs it where that takes little time
+or SHORTER makes it so. Each page is a folder of its own, so a command finds the files of the
+commands before it. The suite `slow` (--all) runs the blocks of each page as they are, with bash.
 """
 
 import os
@@ -19,8 +19,10 @@ CALL = re.compile(r"(?:^|[\s;&|])(?:\./|build/release/)?swirl ([^&|\n]+)", re.M)
 
 # Lines without a call of swirl that no test runs, and why.
 NOT_RUN = (
-    (r"cmake |cpack |ninja |ctest |apt |cd build/|\./check|bench/|build/release/bench/|taskset ",
-     "builds, installs or measures; ./check, tests/library and tests/bench do the same"),
+    (
+        r"cmake |cpack |ninja |ctest |apt |cd build/|\./check|bench/|build/release/bench/|taskset ",
+        "builds, installs or measures; ./check, tests/library and tests/bench do the same",
+    ),
     (r"sbatch ", "needs a cluster"),
     (r"snakemake ", "a package of its own; cluster_test runs the workflow"),
     (r"python3 tests/mutation/", "takes hours; the suite slow runs it"),
@@ -36,26 +38,49 @@ SHORTER = {
     "sweep": ["--threads", "2"],
     "map": ["--steps", "3", "--periods", "3", "--seeds", "2", "--from", "34", "--to", "36"],
     "movie": ["--seconds", "0.1", "--fps", "10", "--size", "320x180"],
-    "image": [], "collect": [], "export": [], "measure": [], "verify": [],
+    "image": [],
+    "collect": [],
+    "export": [],
+    "measure": [],
+    "verify": [],
 }
 # Replaced in a call, so that it is short: (as shown, shorter).
 SHORTENED = (
-    ("--events 1e9", "--events 3000"), ("--events 1e6", "--events 3000"),
-    ("--periods 400", "--periods 8 --warmup 1"), ("--periods 500", "--periods 8 --warmup 1"),
+    ("--events 1e9", "--events 3000"),
+    ("--events 1e6", "--events 3000"),
+    ("--periods 400", "--periods 8 --warmup 1"),
+    ("--periods 500", "--periods 8 --warmup 1"),
     ("--warmup 8 --periods 28", "--warmup 1 --periods 2"),
-    ("'$seed'", "1"), ("'seed_$seed'", "seed_1"),
-    ("--tolerance 0.2", "--tolerance 5"), ("--grow --to 55", "--grow --to 40"),
-    ("--path circle,ellipse:0.8,ellipse:0.5,line", "--path circle,ellipse:0.8,ellipse:0.5,line --events 3000"),
-    ("--periods 200", "--periods 4 --warmup 1"), ("--periods 150", "--periods 2"),
-    ("--periods 100", "--periods 8"), ("periods = 300", "periods = 1"), ("seeds = 8", "seeds = 1"),
-    ('discs = "5:48"', 'discs = "46:48"'), ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),
+    ("'$seed'", "1"),
+    ("'seed_$seed'", "seed_1"),
+    ("--tolerance 0.2", "--tolerance 5"),
+    ("--grow --to 55", "--grow --to 40"),
+    (
+        "--path circle,ellipse:0.8,ellipse:0.5,line",
+        "--path circle,ellipse:0.8,ellipse:0.5,line --events 3000",
+    ),
+    ("--periods 200", "--periods 4 --warmup 1"),
+    ("--periods 150", "--periods 2"),
+    ("--periods 100", "--periods 8"),
+    ("periods = 300", "periods = 1"),
+    ("seeds = 8", "seeds = 1"),
+    ('discs = "5:48"', 'discs = "46:48"'),
+    ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),
     ("--range 1000:1999", "--range 100:199"),
-    ("--discs 20 --out shaker.mp4", "--discs 20 --container-radius 6.5 --scale 12 --width 240 --height 240 "
-     "--frames-per-period 48 --length 2.2 --out shaker.mp4"),
-    ("--discs 40 --mu 0.1:0.1:1 --periods 120 --warmup 20 --seeds 4 --chain mu",
-     "--discs 20 --mu 0.4:0.2:1 --periods 6 --warmup 2 --seeds 2 --chain mu"),
+    (
+        "--discs 20 --out shaker.mp4",
+        "--discs 20 --container-radius 6.5 --scale 12 --width 240 --height 240 "
+        "--frames-per-period 48 --length 2.2 --out shaker.mp4",
+    ),
+    (
+        "--discs 40 --mu 0.1:0.1:1 --periods 120 --warmup 20 --seeds 4 --chain mu",
+        "--discs 20 --mu 0.4:0.2:1 --periods 6 --warmup 2 --seeds 2 --chain mu",
+    ),
     ("--x container_radius=5:9", "--x container_radius=8:9"),  # 36 discs fit
-    ("--x mu=0:2 --y amplitude=0.5:4 --steps 31 --seeds 32", "--x mu=0:2 --y amplitude=0.5:4 --steps 3 --seeds 3"),
+    (
+        "--x mu=0:2 --y amplitude=0.5:4 --steps 31 --seeds 32",
+        "--x mu=0:2 --y amplitude=0.5:4 --steps 3 --seeds 3",
+    ),
 )
 # Calls that only the suite slow runs, or that no machine but the reader's can run.
 PARSED = (
@@ -71,7 +96,11 @@ PARSED = (
 def pages():
     names = ["README.md"]
     for folder, _, files in os.walk(os.path.join(SOURCE, "docs")):
-        names += [os.path.relpath(os.path.join(folder, file), SOURCE) for file in files if file.endswith(".md")]
+        names += [
+            os.path.relpath(os.path.join(folder, file), SOURCE)
+            for file in files
+            if file.endswith(".md")
+        ]
     return sorted(names)
 
 
@@ -80,8 +109,11 @@ def text_of(page):
 
 
 def blocks(text):
-    """(language, content) of the blocks with commands and configurations. Of a console, the commands."""
-    for _, kind, content in re.findall(r"^( *)```(sh|bash|console|toml)\n(.*?)^ *```$", text, re.M | re.S):
+    """(language, content) of the blocks with commands and configurations. Of a console, the
+    commands."""
+    for _, kind, content in re.findall(
+        r"^( *)```(sh|bash|console|toml)\n(.*?)^ *```$", text, re.M | re.S
+    ):
         if kind == "console":
             content = "\n".join(re.findall(r"^\$ (.*)$", content, re.M))
         yield kind, content
@@ -99,26 +131,51 @@ def calls(content):
 def shortened(words):
     """The words of a shorter call, or None if it is too long for the default suite."""
     call = shlex.join(words)
-    if words[0] not in SHORTER and "shaker.mp4" not in words or any(part in call for part, _ in PARSED):
+    if (
+        words[0] not in SHORTER
+        and "shaker.mp4" not in words
+        or any(part in call for part, _ in PARSED)
+    ):
         return None
     for shown, shorter in SHORTENED:
         call = call.replace(shown, shorter)
     words = shlex.split(call) + ["--no-figure"] * (words[0] == "map")
     more = SHORTER.get(words[0], [])
-    if "--periods" in words or "--grow" in words or "--help" in words or words[0] == "run" and "--events" in words:
+    if (
+        "--periods" in words
+        or "--grow" in words
+        or "--help" in words
+        or words[0] == "run"
+        and "--events" in words
+    ):
         more = []
-    return words + [word for option, value in zip(more[::2], more[1::2]) if option not in words
-                    for word in (option, value)]
+    return words + [
+        word
+        for option, value in zip(more[::2], more[1::2])
+        if option not in words
+        for word in (option, value)
+    ]
 
 
 # Videos of the reader, which the suite slow replaces with synthetic ones: name and number of discs.
-VIDEOS = {"dish.mp4": 24, "N24.mp4": 24, "N36.mp4": 36, "N48.mp4": 48,
-          "rough/a.mp4": 40, "s36.mp4": 36, "s48.mp4": 48}
+VIDEOS = {
+    "dish.mp4": 24,
+    "N24.mp4": 24,
+    "N36.mp4": 36,
+    "N48.mp4": 48,
+    "rough/a.mp4": 40,
+    "s36.mp4": 36,
+    "s48.mp4": 48,
+}
 
 
 # Files of the reader whose content a page shows, and their first line.
-SHOWN_FILES = {"shaker.csv": "t,x,y", "radii.csv": "radius,mass", "start.csv": "x,y,vx,vy,spin",
-               "points.csv": "discs,mu,seeds"}
+SHOWN_FILES = {
+    "shaker.csv": "t,x,y",
+    "radii.csv": "radius,mass",
+    "start.csv": "x,y,vx,vy,spin",
+    "points.csv": "discs,mu,seeds",
+}
 
 
 def write_shown_files(folder, text):
@@ -161,8 +218,12 @@ def exit_code(content):
 
 def missing_input(words, folder):
     """A video or a recording that a shortened call reads and that only a long call writes."""
-    return any(re.search(r"\.(mp4|csv|h5|json|toml)$", word) and not os.path.exists(os.path.join(folder, word))
-               for option, word in zip(words, words[1:]) if not option.startswith("--") or option == "--over")
+    return any(
+        re.search(r"\.(mp4|csv|h5|json|toml)$", word)
+        and not os.path.exists(os.path.join(folder, word))
+        for option, word in zip(words, words[1:])
+        if not option.startswith("--") or option == "--over"
+    )
 
 
 class Pages(InFolder):
@@ -194,15 +255,24 @@ class Pages(InFolder):
                         self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_omitted_and_failing_blocks_exist(self):
-        shown = [content for page in pages() for _, content in blocks(text_of(page)) if list(calls(content))
-                 or any(f"swirl {name}" in content for name in LAUNCHER)]
+        shown = [
+            content
+            for page in pages()
+            for _, content in blocks(text_of(page))
+            if list(calls(content)) or any(f"swirl {name}" in content for name in LAUNCHER)
+        ]
         for part in (*(part for part, _ in OMITTED), *FAILING):
             self.assertTrue(any(part in content for content in shown), part)
 
     def test_a_misspelt_option_is_found(self):
-        content = "./swirl run --disks 48        # a comment\nswirl movie --colour id --oout a.mp4 && ./swirl lab\n"
+        content = (
+            "./swirl run --disks 48        # a comment\n"
+            "swirl movie --colour id --oout a.mp4 && ./swirl lab\n"
+        )
         for words in calls(content):
-            self.assertEqual(swirl(*words, environment={"SWIRL_PARSE_ONLY": "1"}).returncode, 2, words)
+            self.assertEqual(
+                swirl(*words, environment={"SWIRL_PARSE_ONLY": "1"}).returncode, 2, words
+            )
         self.assertEqual(len(list(calls(content))), 2)
 
     def test_short_calls_work(self):
@@ -227,12 +297,12 @@ class Pages(InFolder):
 
 
 class PagesAsShown(InFolder):
-    """The blocks with calls of swirl, in the order of their page, with bash. For the suite slow, because of
-    its runs, videos and movies."""
+    """The blocks with calls of swirl, in the order of their page, with bash. For the suite slow,
+    because of its runs, videos and movies."""
 
     def prepare(self, folder, text):
-        """The program under test at the names that the pages use, the sources that they read, and the
-        reader's videos."""
+        """The program under test at the names that the pages use, the sources that they read, and
+        the reader's videos."""
         os.makedirs(os.path.join(folder, "build/release"))
         for name in ("swirl", "build/release/swirl"):
             os.symlink(os.path.abspath(SWIRL), os.path.join(folder, name))
@@ -242,10 +312,23 @@ class PagesAsShown(InFolder):
         write_shown_files(folder, text)
         for name, discs in VIDEOS.items():
             if re.search(rf"(?<!out ){name.replace('a.mp4', '')}", text):
-                self.assert_works("synthetic-video", "--discs", discs, "--camera", "phone", "--length", 2, "--out",
-                                  name, cwd=folder, timeout=HANG)
+                self.assert_works(
+                    "synthetic-video",
+                    "--discs",
+                    discs,
+                    "--camera",
+                    "phone",
+                    "--length",
+                    2,
+                    "--out",
+                    name,
+                    cwd=folder,
+                    timeout=HANG,
+                )
         if "swirl movie run.h5" in text:
-            self.assert_works("run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder)
+            self.assert_works(
+                "run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder
+            )
 
     def test_blocks_work(self):
         for page in pages():
@@ -257,9 +340,13 @@ class PagesAsShown(InFolder):
                 elif can_run(content):
                     with self.subTest(page=page, block=content):
                         done = subprocess.run(
-                            ["bash", "-e", "-o", "pipefail", "-c", content], cwd=folder, text=True,
-                            capture_output=True, stdin=subprocess.DEVNULL,
-                            env={**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]})
+                            ["bash", "-e", "-o", "pipefail", "-c", content],
+                            cwd=folder,
+                            text=True,
+                            capture_output=True,
+                            stdin=subprocess.DEVNULL,
+                            env={**os.environ, "PATH": folder + os.pathsep + os.environ["PATH"]},
+                        )
                         self.assertEqual(done.returncode, exit_code(content), done.stderr[-2000:])
 
 

@@ -1,5 +1,5 @@
-"""Every parameter of a run in every place that accepts it, and which place takes precedence. The list of
-parameters is the table in docs/reference/parameters.md."""
+"""Every parameter of a run in every place that accepts it, and which place takes precedence. The
+list of parameters is the table in docs/reference/parameters.md."""
 
 import os
 import re
@@ -8,24 +8,80 @@ import signal
 import subprocess
 import unittest
 
-from program import HANG, SOURCE, SWIRL, InFolder, read_json, read_text, result_of, swirl, worked, write_text
+from program import (
+    HANG,
+    SOURCE,
+    SWIRL,
+    InFolder,
+    read_json,
+    read_text,
+    result_of,
+    swirl,
+    worked,
+    write_text,
+)
 
 ROW = re.compile(r"^\| `(\w+)` \|", re.MULTILINE)
 
 # Other values for parameters that do not accept 0.9 times their default.
-OTHER = {"mu": "0.5", "mu_disc": "0.5", "mu_wall": "0.5", "inertia": "ring", "mixture": "2:1.2",
-         "speed": "2", "path": "circle", "direction": "clockwise", "frictionless": "bulk", "path_phase": "90",
-         "sizes": "uniform:0.9:1.1", "initial": "states 2:0:1:0:0", "ramp": "mu=0.5:0.7@2..9", "periods": "50", "warmup": "2", "seed": "7",
-         "discs": "12", "sides": "12", "events": "1e13", "tangential_restitution": "0.5",
-         "preset": "experiment", "body": "sphere", "floor": "sliding", "floor_friction": "0.5",
-         "container_radius": "9", "gravity": "2", "rolling_resistance": "0.01", "vertical_disc": "0.5", "vertical_wall": "0.5",
-         "events_per_sample": "7", "cannot_spin": "0.5", "length_unit": "3mm", "time_unit": "22ms"}
+OTHER = {
+    "mu": "0.5",
+    "mu_disc": "0.5",
+    "mu_wall": "0.5",
+    "inertia": "ring",
+    "mixture": "2:1.2",
+    "speed": "2",
+    "path": "circle",
+    "direction": "clockwise",
+    "frictionless": "bulk",
+    "path_phase": "90",
+    "sizes": "uniform:0.9:1.1",
+    "initial": "states 2:0:1:0:0",
+    "ramp": "mu=0.5:0.7@2..9",
+    "periods": "50",
+    "warmup": "2",
+    "seed": "7",
+    "discs": "12",
+    "sides": "12",
+    "events": "1e13",
+    "tangential_restitution": "0.5",
+    "preset": "experiment",
+    "body": "sphere",
+    "floor": "sliding",
+    "floor_friction": "0.5",
+    "container_radius": "9",
+    "gravity": "2",
+    "rolling_resistance": "0.01",
+    "vertical_disc": "0.5",
+    "vertical_wall": "0.5",
+    "events_per_sample": "7",
+    "cannot_spin": "0.5",
+    "length_unit": "3mm",
+    "time_unit": "22ms",
+}
 # Only in results of runs that set them.
-IF_SET = {"cannot_spin", "direction", "events_per_sample", "frictionless", "initial", "length_unit", "path_phase", "ramp", "sizes",
-          "time_unit"}
+IF_SET = {
+    "cannot_spin",
+    "direction",
+    "events_per_sample",
+    "frictionless",
+    "initial",
+    "length_unit",
+    "path_phase",
+    "ramp",
+    "sizes",
+    "time_unit",
+}
 # Only in results of spheres or floors, and the options that they require.
-OF_SPHERES = {"body", "floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc",
-              "vertical_wall"}
+OF_SPHERES = {
+    "body",
+    "floor",
+    "floor_friction",
+    "gravity",
+    "rolling_resistance",
+    "vertical_disc",
+    "vertical_wall",
+}
 WITH = {name: ["--body", "sphere"] for name in ("floor", "vertical_disc", "vertical_wall")}
 WITH |= {name: ["--floor", "sliding"] for name in ("floor_friction", "gravity")}
 WITH["rolling_resistance"] = ["--body", "sphere", "--floor", "sliding"]
@@ -42,7 +98,9 @@ def settings_in(toml):
 
 
 PARAMETERS = rows()
-GIVEN = {name: "--" + name.replace("_", "-") for name in PARAMETERS if name != "omega"}  # omega is only written
+GIVEN = {
+    name: "--" + name.replace("_", "-") for name in PARAMETERS if name != "omega"
+}  # omega is only written
 PAPER = settings_in(swirl("run", "--dry-run").stdout)
 
 
@@ -53,7 +111,10 @@ def another(name):
 class Everywhere(InFolder):
     def test_the_docs_list_all_parameters(self):
         self.assertGreater(len(GIVEN), 15)
-        self.assertEqual(set(result_of("--events", 10)["config"]), set(PARAMETERS) - {"mu", "preset"} - OF_SPHERES - IF_SET)
+        self.assertEqual(
+            set(result_of("--events", 10)["config"]),
+            set(PARAMETERS) - {"mu", "preset"} - OF_SPHERES - IF_SET,
+        )
 
     def test_help(self):
         text = swirl("run", "--help").stdout
@@ -63,7 +124,9 @@ class Everywhere(InFolder):
     def test_option_file_and_dry_run(self):
         for name, option in GIVEN.items():
             with self.subTest(name):
-                by_option = self.assert_works("run", option, another(name), *WITH.get(name, []), "--dry-run")
+                by_option = self.assert_works(
+                    "run", option, another(name), *WITH.get(name, []), "--dry-run"
+                )
                 self.assertNotEqual(settings_in(by_option.stdout), PAPER)
                 for spelling in (name, name.replace("_", "-")):
                     write_text(self.path("a.toml"), f'{spelling} = "{another(name)}"\n')
@@ -73,8 +136,10 @@ class Everywhere(InFolder):
                 write_text(self.path("a.toml"), by_option.stdout)
                 again = swirl("run", self.path("a.toml"), "--dry-run")
                 self.assertEqual(again.stdout, by_option.stdout, again.stderr)
-        self.assertEqual(swirl("run", "--mu_disc", "0.5", "--dry-run").stdout,
-                         swirl("run", "--mu-disc=0.5", "--dry-run").stdout)
+        self.assertEqual(
+            swirl("run", "--mu_disc", "0.5", "--dry-run").stdout,
+            swirl("run", "--mu-disc=0.5", "--dry-run").stdout,
+        )
 
     def test_identity_of_a_resumed_run(self):
         call = [SWIRL, "run", "--events", "1e14", "--quiet", "--checkpoint", self.path("kept")]
@@ -87,10 +152,23 @@ class Everywhere(InFolder):
                 shutil.copy(self.path("kept"), self.path("copy"))
                 # Only the length may differ, and it must not be shorter than the finished part.
                 length = name in ("events", "periods")
-                value, says = ((1000 if name == "events" else 1), "to another length") if length \
+                value, says = (
+                    ((1000 if name == "events" else 1), "to another length")
+                    if length
                     else (another(name), "belongs to another run")
-                self.assert_fails(2, "run", *([] if length else ["--events", "1e14"]), option, value,
-                                  *WITH.get(name, []), "--checkpoint", self.path("copy"), "--resume", says=says)
+                )
+                self.assert_fails(
+                    2,
+                    "run",
+                    *([] if length else ["--events", "1e14"]),
+                    option,
+                    value,
+                    *WITH.get(name, []),
+                    "--checkpoint",
+                    self.path("copy"),
+                    "--resume",
+                    says=says,
+                )
 
 
 class Precedence(InFolder):
@@ -107,20 +185,45 @@ class Precedence(InFolder):
         self.assertNotIn("frames", settings)
 
     def test_a_list_overrides_the_value_of_the_file(self):
-        write_text(self.path("a.toml"), swirl("run", "--discs", 8, "--events", 2000, "--dry-run").stdout)
-        self.assert_works("sweep", self.path("a.toml"), "--mu", "0.1,0.5", "--out", self.path("s"), "--quiet")
+        write_text(
+            self.path("a.toml"), swirl("run", "--discs", 8, "--events", 2000, "--dry-run").stdout
+        )
+        self.assert_works(
+            "sweep", self.path("a.toml"), "--mu", "0.1,0.5", "--out", self.path("s"), "--quiet"
+        )
         table = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()
         self.assertEqual(len(table), 3)
         self.assertNotEqual(table[1].split(",")[-1], table[2].split(",")[-1])
 
     def test_an_axis_without_effect_is_rejected(self):
-        self.assert_fails(2, "sweep", "--mu", "0.1,0.5", "--mu-disc", "1", "--mu-wall", "1", "--out", self.path("s"),
-                          says="--mu 0.1 and --mu 0.5 are the same run")
+        self.assert_fails(
+            2,
+            "sweep",
+            "--mu",
+            "0.1,0.5",
+            "--mu-disc",
+            "1",
+            "--mu-wall",
+            "1",
+            "--out",
+            self.path("s"),
+            says="--mu 0.1 and --mu 0.5 are the same run",
+        )
         self.assertEqual(self.left_behind(), [])
 
     def test_sweep_tables_and_json_have_the_same_names(self):
-        self.assert_works("sweep", "--mu-disc", "0.5", "--discs", 5, "--events", 100, "--out", self.path("s"),
-                          "--quiet")
+        self.assert_works(
+            "sweep",
+            "--mu-disc",
+            "0.5",
+            "--discs",
+            5,
+            "--events",
+            100,
+            "--out",
+            self.path("s"),
+            "--quiet",
+        )
         heads = swirl("collect", self.path("s"), "--csv", "-").stdout.splitlines()[0].split(",")
         self.assertIn("mu_disc", heads)
         self.assertIn("mu_disc", read_json(self.path("s/results/000000.json"))["config"])

@@ -23,11 +23,24 @@ def why_not():
         return "starting a private Slurm needs root"
     missing = [program for program in PROGRAMS if not shutil.which(program)]
     if missing:
-        subprocess.run(["apt-get", "-o", "DPkg::Lock::Timeout=300", "install", "-y",
-                        "--no-install-recommends", "slurm-wlm", "munge"], capture_output=True)
+        subprocess.run(
+            [
+                "apt-get",
+                "-o",
+                "DPkg::Lock::Timeout=300",
+                "install",
+                "-y",
+                "--no-install-recommends",
+                "slurm-wlm",
+                "munge",
+            ],
+            capture_output=True,
+        )
         missing = [program for program in PROGRAMS if not shutil.which(program)]
     if missing:
-        return f"{', '.join(missing)} not installed; Debian's packages slurm-wlm and munge have them"
+        return (
+            f"{', '.join(missing)} not installed; Debian's packages slurm-wlm and munge have them"
+        )
     if subprocess.run(["runuser", "-u", "munge", "--", "true"], capture_output=True).returncode:
         return "root may not become the user munge here"
     # From Slurm 23.11 on, Slurm.__init__ disables the plugin that needs them.
@@ -77,7 +90,8 @@ class Slurm:
         self.environment = dict(os.environ, SLURM_CONF=f"{folder}/slurm.conf")
         host = socket.gethostname().split(".")[0]
         with open(f"{folder}/slurm.conf", "w") as conf:
-            conf.write(f"""ClusterName=test
+            conf.write(
+                f"""ClusterName=test
 SlurmctldHost={host}(127.0.0.1)
 SlurmUser=root
 SlurmdUser=root
@@ -107,19 +121,25 @@ SlurmdTimeout=10
 KillWait=2
 JobRequeue=1
 SlurmdParameters=config_overrides
-""")
+"""
+            )
             for k, node in enumerate(self.nodes):
-                conf.write(f"NodeName={node} NodeHostname={host} NodeAddr=127.0.0.1 "
-                           f"Port={port + 101 + k} CPUs={cpus} RealMemory=500 State=UNKNOWN\n")
+                conf.write(
+                    f"NodeName={node} NodeHostname={host} NodeAddr=127.0.0.1 "
+                    f"Port={port + 101 + k} CPUs={cpus} RealMemory=500 State=UNKNOWN\n"
+                )
             # A node needs control groups unless this plugin is disabled.
             if version() >= (23, 11):
                 write_text(f"{folder}/cgroup.conf", "CgroupPlugin=disabled\n")
-            conf.write(f"PartitionName=main Nodes={','.join(self.nodes)} Default=YES "
-                       "MaxTime=INFINITE State=UP OverSubscribe=NO\n")
+            conf.write(
+                f"PartitionName=main Nodes={','.join(self.nodes)} Default=YES "
+                "MaxTime=INFINITE State=UP OverSubscribe=NO\n"
+            )
 
     def run(self, *command):
-        return subprocess.run(command, env=self.environment, capture_output=True, text=True,
-                              timeout=HANG)
+        return subprocess.run(
+            command, env=self.environment, capture_output=True, text=True, timeout=HANG
+        )
 
     def start(self):
         munge = f"{self.folder}/munge"
@@ -129,10 +149,19 @@ SlurmdParameters=config_overrides
             shutil.chown(name, "munge", "munge")
         os.chmod(munge, 0o755)
         os.chmod(f"{munge}/key", 0o400)
-        started = self.run("runuser", "-u", "munge", "--", "munged", "--force",
-                           f"--socket={munge}/munge.socket", f"--key-file={munge}/key",
-                           f"--pid-file={munge}/pid", f"--log-file={munge}/log",
-                           f"--seed-file={munge}/seed")
+        started = self.run(
+            "runuser",
+            "-u",
+            "munge",
+            "--",
+            "munged",
+            "--force",
+            f"--socket={munge}/munge.socket",
+            f"--key-file={munge}/key",
+            f"--pid-file={munge}/pid",
+            f"--log-file={munge}/log",
+            f"--seed-file={munge}/seed",
+        )
         assert started.returncode == 0, started.stderr
         for node in self.nodes:
             os.makedirs(f"{self.folder}/spool/{node}", exist_ok=True)
@@ -141,7 +170,10 @@ SlurmdParameters=config_overrides
         subprocess.run(["slurmctld"], check=True, **quiet)
         for node in self.nodes:
             subprocess.run(["slurmd", "-N", node], check=True, **quiet)
-        wait_until(lambda: self.run("sinfo", "-h", "-N", "-o", "%T").stdout.split().count("idle") == len(self.nodes))
+        wait_until(
+            lambda: self.run("sinfo", "-h", "-N", "-o", "%T").stdout.split().count("idle")
+            == len(self.nodes)
+        )
 
     def pid_of(self, name):
         try:
@@ -157,7 +189,9 @@ SlurmdParameters=config_overrides
             if not line.startswith("slurmstepd: ["):
                 continue
             try:
-                links = [os.readlink(f"/proc/{pid}/fd/{fd}") for fd in os.listdir(f"/proc/{pid}/fd")]
+                links = [
+                    os.readlink(f"/proc/{pid}/fd/{fd}") for fd in os.listdir(f"/proc/{pid}/fd")
+                ]
             except OSError:
                 continue
             if log in links:
@@ -201,7 +235,8 @@ SlurmdParameters=config_overrides
 
 
 def started_for(test, nodes):
-    """A Slurm in the folder of a test (InFolder), and the environment to use it. Skips the test where none can run."""
+    """A Slurm in the folder of a test (InFolder), and the environment to use it. Skips the test
+    where none can run."""
     reason = why_not()
     if reason:
         test.skipTest(reason)

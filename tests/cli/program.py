@@ -12,13 +12,15 @@ import time
 import unittest
 
 SWIRL = os.environ.get("SWIRL", "build/tests/swirl")
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
-# Seconds that no call lasts, on a busy machine either. The hour of ctest is longer, so that a message names the call.
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
+# Seconds that no call lasts, on a busy machine either. The hour of ctest is longer, so that a
+# message names the call.
 HANG = 3000
 
-# A script called with --all runs complete, as in the suite `slow` (tests/CMakeLists.txt). Without it, it omits
-# tests that take long and whose code the others cover too.
+# A script called with --all runs complete, as in the suite `slow` (tests/CMakeLists.txt). Without
+# it, it omits tests that take long and whose code the others cover too.
 ALL = "--all" in sys.argv
 
 
@@ -29,7 +31,7 @@ def slow(reason):
 
 def some(cases, count):
     """All cases with --all, else the first ones."""
-    return list(cases)[:None if ALL else count]
+    return list(cases)[: None if ALL else count]
 
 
 def main():
@@ -43,8 +45,15 @@ ONE_ERROR = r"\Aerror: [^\n]+\.\n(hint: [^\n]+\n)?\Z"
 def swirl(*arguments, timeout=HANG, **more):
     """Runs the program to its end. Returns an object with returncode, stdout and stderr (text)."""
     environment = dict(os.environ, NO_COLOR="1", **more.pop("environment", {}))
-    return subprocess.run([SWIRL, *map(str, arguments)], capture_output=True, text=True,
-                          timeout=timeout, env=environment, stdin=subprocess.DEVNULL, **more)
+    return subprocess.run(
+        [SWIRL, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=timeout,
+        env=environment,
+        stdin=subprocess.DEVNULL,
+        **more,
+    )
 
 
 def wait_until(happens, process=None):
@@ -70,7 +79,8 @@ def processor_seconds(pid):
 
 
 def worked(process, seconds):
-    """Waits until a process has used that much processor time, on a busy machine, too; False if it ended before."""
+    """Waits until a process has used that much processor time, on a busy machine, too; False if it
+    ended before."""
     while (used := processor_seconds(process.pid)) is not None:
         if used >= seconds:
             return True
@@ -79,8 +89,8 @@ def worked(process, seconds):
 
 
 def other_user(program="true"):
-    """Arguments of subprocess that choose the user nobody, if this process is root. Skips the test if there is none in
-    this namespace, or if that user cannot start `program`."""
+    """Arguments of subprocess that choose the user nobody, if this process is root. Skips the test
+    if there is none in this namespace, or if that user cannot start `program`."""
     user = {"user": 65534, "group": 65534, "extra_groups": []} if os.getuid() == 0 else {}
     try:
         subprocess.run([program, "--version"], capture_output=True, cwd="/", **user)
@@ -130,8 +140,9 @@ def without_time(file):
 
 
 def made_of_the_web(test_class, script, name, before=(), **more):
-    """Runs a script of web/ for all tests of a class and returns its output, a file or a folder that contained
-    the empty files `before`; self.warnings is its standard error. Skips the tests if clang or Node.js is missing."""
+    """Runs a script of web/ for all tests of a class and returns its output, a file or a folder
+    that contained the empty files `before`; self.warnings is its standard error. Skips the tests if
+    clang or Node.js is missing."""
     if not all(shutil.which(tool) for tool in ("clang++-19", "node", "npm")):
         print("skipped: this test needs clang-19 with wasi-libc, Node.js and npm")
         sys.exit(77)
@@ -149,8 +160,9 @@ def made_of_the_web(test_class, script, name, before=(), **more):
 
 
 def folder_in_memory():
-    """The parent for temporary folders: in memory, where no call waits for the disk; the files after a kill are the
-    same. None, the usual parent, if that memory is small, as in most containers, or forbids programs."""
+    """The parent for temporary folders: in memory, where no call waits for the disk; the files
+    after a kill are the same. None, the usual parent, if that memory is small, as in most
+    containers, or forbids programs."""
     memory = "/dev/shm"
     if not os.access(memory, os.W_OK) or os.statvfs(memory).f_flag & os.ST_NOEXEC:
         return None
@@ -164,8 +176,8 @@ class ProgramTest(unittest.TestCase):
         return done
 
     def assert_fails(self, code, *call, says=(), **more):
-        """The call ends with this exit code and one error message, perhaps after warnings and lines of progress, which
-        slow machines get; standard error contains `says`, a text or several."""
+        """The call ends with this exit code and one error message, perhaps after warnings and lines
+        of progress, which slow machines get; standard error contains `says`, a text or several."""
         done = swirl(*call, **more)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         before = r"\A(warning: [^\n]+\n(hint: [^\n]+\n)?|[^\n]+ %, [^\n]+ left\n)+"
@@ -184,7 +196,8 @@ class InFolder(ProgramTest):
         self.addCleanup(self._folder.cleanup)
 
     def shared(self, name, make):
-        """The path of a copy of `name`, a file or folder that make(path) writes once for all tests of the class."""
+        """The path of a copy of `name`, a file or folder that make(path) writes once for all tests
+        of the class."""
         test = type(self)
         if "store" not in test.__dict__:
             test.store = tempfile.TemporaryDirectory(prefix="swirl-test-", dir=folder_in_memory())
@@ -196,15 +209,25 @@ class InFolder(ProgramTest):
         return self.path(name)
 
     def edit_hdf5(self, file, code):
-        """Changes an HDF5 file by Python code in which `f` is the open file. Skips the test if there is no h5py."""
+        """Changes an HDF5 file by Python code in which `f` is the open file. Skips the test if
+        there is no h5py."""
         try:
             import h5py
             import numpy
         except ImportError:
             self.skipTest("h5py is not installed; Debian's package python3-h5py provides it.")
         with h5py.File(self.path(file), "r+") as f:
-            exec(code, {"f": f, "particles": f.get("particles/trajectory"), "h5py": h5py, "np": numpy,
-                        "nan": numpy.nan, "inf": numpy.inf})
+            exec(
+                code,
+                {
+                    "f": f,
+                    "particles": f.get("particles/trajectory"),
+                    "h5py": h5py,
+                    "np": numpy,
+                    "nan": numpy.nan,
+                    "inf": numpy.inf,
+                },
+            )
 
     def path(self, name):
         return os.path.join(self.folder, name)

@@ -13,9 +13,13 @@ def on_a_terminal(*arguments, **environment):
     """The output of the program to stderr on a terminal."""
     master, slave = pty.openpty()
     clean = {k: v for k, v in os.environ.items() if k != "NO_COLOR"}
-    process = subprocess.Popen([SWIRL, *arguments], stdout=subprocess.DEVNULL, stderr=slave,
-                               stdin=subprocess.DEVNULL,
-                               env={**clean, "TERM": "xterm", **environment})
+    process = subprocess.Popen(
+        [SWIRL, *arguments],
+        stdout=subprocess.DEVNULL,
+        stderr=slave,
+        stdin=subprocess.DEVNULL,
+        env={**clean, "TERM": "xterm", **environment},
+    )
     os.close(slave)
     text = b""
     while True:
@@ -46,7 +50,7 @@ class Terminal(unittest.TestCase):
         self.assertGreater(text.count("\r"), 3)
         self.assertRegex(text, r"48 discs .*\d %  [\d.]+ (thousand|million) events/s  .* left")
         self.assertIn("\x1b[36m", text)
-        self.assertIn("\r\x1b[K", text[text.rindex("left"):])
+        self.assertIn("\r\x1b[K", text[text.rindex("left") :])
 
     def test_no_color_disables_colors(self):
         text = on_a_terminal(*LONG, NO_COLOR="1")
@@ -64,8 +68,9 @@ class Terminal(unittest.TestCase):
 class LogFile(unittest.TestCase):
     @slow("it waits for ten seconds")
     def test_gets_an_occasional_line(self):
-        process = subprocess.Popen([SWIRL, *LONG], stdout=subprocess.DEVNULL,
-                                   stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [SWIRL, *LONG], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True
+        )
         line = process.stderr.readline()  # after ten seconds
         process.terminate()
         process.communicate(timeout=HANG)

@@ -1,7 +1,8 @@
-"""For every random choice of parameters from their whole range, with fixed seeds, a run of a thousand
-events either ends or is rejected with one error message.
+"""For every random choice of parameters from their whole range, with fixed seeds, a run of a
+thousand events either ends or is rejected with one error message.
 
-With --all: hundreds of choices, with --soak thousands, up to hundreds of thousands of discs and ten thousand spheres."""
+With --all: hundreds of choices, with --soak thousands, up to hundreds of thousands of discs and ten
+thousand spheres."""
 
 import json
 import math
@@ -39,18 +40,28 @@ def drawn(draw, max_discs):
     discs = int(usual_or(draw, 48, 1, max_discs, 0.2))
     packing = log_uniform(draw, 1e-9, 0.85) if draw.random() < 0.4 else draw.uniform(0.1, 0.75)
     container = min(max(radius * math.sqrt(discs / packing), 1.02 * radius), 1e6)
-    options = {"discs": discs, "radius": radius,
-               "container-radius": float(f"{container:.4g}") if draw.random() < 0.9
-               else usual_or(draw, 8.6, 1e-6, 1e6),
-               "seed": draw.randrange(1 << 32), "events": 1000, "warmup": 0}
+    options = {
+        "discs": discs,
+        "radius": radius,
+        "container-radius": float(f"{container:.4g}")
+        if draw.random() < 0.9
+        else usual_or(draw, 8.6, 1e-6, 1e6),
+        "seed": draw.randrange(1 << 32),
+        "events": 1000,
+        "warmup": 0,
+    }
     if draw.random() < 0.3:
         small = log_uniform(draw, 1e-3, 1) * radius
         options["mixture"] = f"{draw.randint(1, discs)}:{small:.3g}"
         if draw.random() < 0.3:
             options["mixture"] += f":{log_uniform(draw, 1e-6, 1e6)}"
-    for name, usual, low, high in (("mu", 1, 1e-6, 1e6), ("mass", 1, 1e-6, 1e6),
-                                   ("inertia", "paper", 1e-12, 1e18),
-                                   ("amplitude", 1.892, 1e-6, 1e6), ("period", 11.87, 1e-6, 1e6)):
+    for name, usual, low, high in (
+        ("mu", 1, 1e-6, 1e6),
+        ("mass", 1, 1e-6, 1e6),
+        ("inertia", "paper", 1e-12, 1e18),
+        ("amplitude", 1.892, 1e-6, 1e6),
+        ("period", 11.87, 1e-6, 1e6),
+    ):
         if draw.random() < 0.4:
             options[name] = usual_or(draw, usual, low, high, 0.2)
     if draw.random() < 0.2:
@@ -73,9 +84,12 @@ def drawn(draw, max_discs):
 
 
 def on_a_floor(draw, options):
-    """Options of spheres or coins; spheres get the inertia of a sphere or a shell instead of `paper`."""
-    more = {"body": draw.choice(["sphere", "sphere", "disc"]),
-            "floor": draw.choice(["none", "sliding", "sliding"])}
+    """Options of spheres or coins; spheres get the inertia of a sphere or a shell instead of
+    `paper`."""
+    more = {
+        "body": draw.choice(["sphere", "sphere", "disc"]),
+        "floor": draw.choice(["none", "sliding", "sliding"]),
+    }
     if more["body"] == "sphere":
         if options.get("inertia") == "paper":
             more["inertia"] = draw.choice(["sphere", "shell"])
@@ -86,7 +100,9 @@ def on_a_floor(draw, options):
         more["floor-friction"] = usual_or(draw, 0.3, 1e-6, 1e6)
         more["gravity"] = usual_or(draw, 6.382, 1e-6, 1e6)
         if more["body"] == "sphere" and draw.random() < 0.3:
-            more["rolling-resistance"] = draw.choice([1.0, 0.1, 0.01, 1e-6]) * more["floor-friction"]
+            more["rolling-resistance"] = (
+                draw.choice([1.0, 0.1, 0.01, 1e-6]) * more["floor-friction"]
+            )
     return more
 
 
@@ -98,9 +114,15 @@ def limit():
 class RandomScenes(InFolder):
     def run_or_rejected(self, options):
         """True if the run ended, False if it was rejected."""
-        done = subprocess.run([SWIRL, "run", *options, "--json", "-", "--quiet"],
-                              capture_output=True, text=True, stdin=subprocess.DEVNULL,
-                              cwd=self.folder, preexec_fn=limit, env=dict(os.environ, NO_COLOR="1"))
+        done = subprocess.run(
+            [SWIRL, "run", *options, "--json", "-", "--quiet"],
+            capture_output=True,
+            text=True,
+            stdin=subprocess.DEVNULL,
+            cwd=self.folder,
+            preexec_fn=limit,
+            env=dict(os.environ, NO_COLOR="1"),
+        )
         call = "swirl run " + " ".join(options)
         if done.returncode in (1, 2):
             self.assertRegex(done.stderr, ONE_ERROR, call)
@@ -118,7 +140,13 @@ class RandomScenes(InFolder):
         self.assertFalse(self.run_or_rejected([*scene, "--amplitude", "1e6", "--events", "10000"]))
 
     def test_random_parameters_run_or_are_rejected(self):
-        cases, max_discs = (3000, 3e5) if "--soak" in sys.argv else (500, 3e5) if "--all" in sys.argv else (80, 3000)
+        cases, max_discs = (
+            (3000, 3e5)
+            if "--soak" in sys.argv
+            else (500, 3e5)
+            if "--all" in sys.argv
+            else (80, 3000)
+        )
         run = 0
         for case in range(cases):
             options = drawn(random.Random(f"scene {case}"), max_discs)

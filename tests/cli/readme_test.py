@@ -21,8 +21,10 @@ def blocks(kind, text=README):
 
 def pages():
     """Every page of docs/, relative to the root of the sources."""
-    return sorted(os.path.relpath(path, SOURCE) for path in
-                  glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True))
+    return sorted(
+        os.path.relpath(path, SOURCE)
+        for path in glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"), recursive=True)
+    )
 
 
 @functools.cache
@@ -34,7 +36,8 @@ def output_of(*words):
 
 class Readme(unittest.TestCase):
     def compare_shown_output(self, text):
-        """Runs each command that the text shows with output, and returns the number of compared lines."""
+        """Runs each command that the text shows with output, and returns the number of compared
+        lines."""
         compared = 0
         for block in blocks("console", text):
             for part in re.split(r"^\$ ", block, flags=re.M)[1:]:
@@ -62,16 +65,21 @@ class Readme(unittest.TestCase):
         self.assertGreater(compared, 25)
 
     def test_options_in_the_documents_exist(self):
-        """Every option of a command, on a line of its own or in backquotes, is in the help of the command."""
-        commands = re.findall(r"^  (\w[\w-]*)  ", swirl("--help").stdout.partition("Subcommands:")[2], re.M)
+        """Every option of a command, on a line of its own or in backquotes, is in the help of the
+        command."""
+        commands = re.findall(
+            r"^  (\w[\w-]*)  ", swirl("--help").stdout.partition("Subcommands:")[2], re.M
+        )
         helps, options = {}, 0
         for name in ["README.md", *pages()]:
             text = read_text(os.path.join(SOURCE, name)).replace("\\\n", " ")
-            for start, call in re.findall(r"(^|^\./|`|`\./|&& \./)swirl ([a-z][^`\n]*)", text, re.M):
+            for start, call in re.findall(
+                r"(^|^\./|`|`\./|&& \./)swirl ([a-z][^`\n]*)", text, re.M
+            ):
                 if start == "" and call.split()[0] not in commands:  # a sentence
                     continue
                 words = shlex.split(call.replace("…", ""), comments=True)
-                words = words[:words.index("&&")] if "&&" in words else words
+                words = words[: words.index("&&")] if "&&" in words else words
                 if not words or words[0] in ("lab", "site", "python"):  # scripts
                     continue
                 if words[0] not in helps:
@@ -80,14 +88,18 @@ class Readme(unittest.TestCase):
                 for word in words[1:]:
                     if word.startswith("--"):
                         option = word.split("=")[0]
-                        self.assertRegex(helps[words[0]], rf"(?<![\w-]){option}(?![\w-])", f"{name}: {call}")
+                        self.assertRegex(
+                            helps[words[0]], rf"(?<![\w-]){option}(?![\w-])", f"{name}: {call}"
+                        )
                         options += 1
         self.assertGreater(options, 100)
 
     def test_index_links_to_every_page(self):
         linked = re.findall(r"\]\(([^)#]+\.md)", read_text(os.path.join(SOURCE, "docs/index.md")))
-        self.assertEqual(set(pages()) - {os.path.normpath(os.path.join("docs", link)) for link in linked},
-                         {"docs/index.md"})
+        self.assertEqual(
+            set(pages()) - {os.path.normpath(os.path.join("docs", link)) for link in linked},
+            {"docs/index.md"},
+        )
 
     def test_links_have_targets(self):
         for name in ["README.md", "CONTRIBUTING.md", "SECURITY.md", "CHANGELOG.md", *pages()]:

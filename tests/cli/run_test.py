@@ -8,17 +8,42 @@ import signal
 import subprocess
 import unittest
 
-from program import (HANG, SWIRL, InFolder, ProgramTest, other_user, read_json, result_of, swirl, worked,
-                     write_text)
+from program import (
+    HANG,
+    SWIRL,
+    InFolder,
+    ProgramTest,
+    other_user,
+    read_json,
+    result_of,
+    swirl,
+    worked,
+    write_text,
+)
 
 
 class Json(InFolder):
     def test_json_has_all_documented_keys(self):
         result = result_of("--discs", 12, "--events", 20000)
-        for key in ("config", "events", "periods", "rotation", "max_overlap", "energy",
-                    "state_hash", "seconds", "events_per_second", "version", "complete", "warmup"):
+        for key in (
+            "config",
+            "events",
+            "periods",
+            "rotation",
+            "max_overlap",
+            "energy",
+            "state_hash",
+            "seconds",
+            "events_per_second",
+            "version",
+            "complete",
+            "warmup",
+        ):
             self.assertIn(key, result)
-        self.assertEqual(set(result["events"]), {"total", "disc_disc", "disc_wall", "path_vertex", "elastic_by_tc_model"})
+        self.assertEqual(
+            set(result["events"]),
+            {"total", "disc_disc", "disc_wall", "path_vertex", "elastic_by_tc_model"},
+        )
         for average in ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time"):
             self.assertTrue(math.isfinite(result["rotation"][average]["mean"]))
             self.assertGreater(result["rotation"][average]["error"], 0)
@@ -65,15 +90,27 @@ class Json(InFolder):
         os.chmod(open_folder, 0o777)
         os.chmod(locked, 0o555)
         self.addCleanup(os.chmod, locked, 0o755)
-        reader = subprocess.Popen(["cat", os.path.join(locked, "pipe")], stdout=subprocess.PIPE, text=True)
-        done = swirl("run", "--events", 10, "--quiet", "--json", os.path.join(locked, "pipe"), **user)
+        reader = subprocess.Popen(
+            ["cat", os.path.join(locked, "pipe")], stdout=subprocess.PIPE, text=True
+        )
+        done = swirl(
+            "run", "--events", 10, "--quiet", "--json", os.path.join(locked, "pipe"), **user
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(reader.communicate(timeout=HANG)[0])["events"]["total"], 10)
         done = swirl("run", "--events", 10, "--json", os.path.join(locked, "link.json"), **user)
         self.assertEqual(done.returncode, 0, done.stderr)
         read_json(os.path.join(open_folder, "result.json"))
-        self.assert_fails(1, "run", "--events", 10, "--json", os.path.join(locked, "new.json"),
-                          says="cannot be written: Permission denied", **user)
+        self.assert_fails(
+            1,
+            "run",
+            "--events",
+            10,
+            "--json",
+            os.path.join(locked, "new.json"),
+            says="cannot be written: Permission denied",
+            **user,
+        )
 
     def test_json_to_stdout_moves_the_report_to_stderr(self):
         done = swirl("run", "--events", 1000, "--json", "-")
@@ -83,8 +120,9 @@ class Json(InFolder):
 
 class Trajectory(unittest.TestCase):
     def test_the_warmup_does_not_change_the_trajectory(self):
-        hashes = {result_of("--periods", 8, "--warmup", warmup)["state_hash"]
-                  for warmup in (0, 1, 7)}
+        hashes = {
+            result_of("--periods", 8, "--warmup", warmup)["state_hash"] for warmup in (0, 1, 7)
+        }
         self.assertEqual(len(hashes), 1)
 
     def test_warmup_zero_counts_from_the_first_event(self):
@@ -101,25 +139,43 @@ class InitialState(InFolder):
     def test_a_run_from_a_file_is_verified_without_it(self):
         start = self.path("start.csv")
         write_text(start, "x,y,vx,vy,spin\n2,0,0,1,0\n2,3,0,0,-1\n")
-        for output in (["--json", self.path("r.json"), "--trajectory", self.path("t.h5")],
-                       ["--checkpoint", self.path("c"), "--keep-checkpoint"]):
-            self.assert_works("run", "--initial", start, "--periods", 20, "--warmup", 2, "--quiet", *output)
+        for output in (
+            ["--json", self.path("r.json"), "--trajectory", self.path("t.h5")],
+            ["--checkpoint", self.path("c"), "--keep-checkpoint"],
+        ):
+            self.assert_works(
+                "run", "--initial", start, "--periods", 20, "--warmup", 2, "--quiet", *output
+            )
         write_text(self.path("a.toml"), f'initial = "{start}"\nperiods = 20\nwarmup = 2\n')
         by_file = result_of(self.path("a.toml"))
         os.unlink(start)
         for name in ("r.json", "t.h5"):
             self.assertIn("bitwise identical", swirl("verify", self.path(name)).stdout)
         self.assertEqual(read_json(self.path("r.json"))["state_hash"], by_file["state_hash"])
-        longer = swirl("run", "--checkpoint", self.path("c"), "--resume", "--periods", 30, "--json", "-", "--quiet")
+        longer = swirl(
+            "run",
+            "--checkpoint",
+            self.path("c"),
+            "--resume",
+            "--periods",
+            30,
+            "--json",
+            "-",
+            "--quiet",
+        )
         self.assertEqual(json.loads(longer.stdout)["config"]["discs"], 2, longer.stderr)
 
 
 class Report(ProgramTest):
     def test_headline_gives_the_direction_of_rotation(self):
-        self.assertIn("28 discs rotate with the swirl: ϖ/Ω = 0.0", swirl("run", "--discs", 28, "--events", 1e5)
-                      .stdout)
-        self.assertIn("48 discs rotate against the swirl (counterrotation): ϖ/Ω = −0.0",
-                      swirl("run", "--discs", 48, "--events", 1e5).stdout)
+        self.assertIn(
+            "28 discs rotate with the swirl: ϖ/Ω = 0.0",
+            swirl("run", "--discs", 28, "--events", 1e5).stdout,
+        )
+        self.assertIn(
+            "48 discs rotate against the swirl (counterrotation): ϖ/Ω = −0.0",
+            swirl("run", "--discs", 48, "--events", 1e5).stdout,
+        )
 
     def test_one_disc_has_no_rotation(self):
         done = self.assert_works("run", "--discs", 1, "--events", 1000)
@@ -132,7 +188,9 @@ class Report(ProgramTest):
         self.assertNotIn("ϖ/Ω", done.stdout)
         result = result_of("--events", 300, "--measure", "slip")
         for estimator in result["rotation"].values():
-            self.assertEqual((estimator["mean"], estimator["error"], estimator["blocks"]), (None, None, 0))
+            self.assertEqual(
+                (estimator["mean"], estimator["error"], estimator["blocks"]), (None, None, 0)
+            )
         self.assertIsNone(result["measured"]["slip"]["cluster"]["mean"])
         self.assertIn("averages are over whole periods", " ".join(result["warnings"]))
 
@@ -146,23 +204,36 @@ class Report(ProgramTest):
 
     def test_the_report_has_four_lines_and_more_with_verbose(self):
         call = ("run", "--discs", 48, "--events", 20000)
-        short, full = swirl(*call).stdout.splitlines(), swirl(*call, "--verbose").stdout.splitlines()
+        short, full = (
+            swirl(*call).stdout.splitlines(),
+            swirl(*call, "--verbose").stdout.splitlines(),
+        )
         self.assertEqual([line.split()[0] for line in short], ["48", "average", "steady", "repeat"])
-        self.assertEqual([line.split()[0] for line in full if line not in short],
-                         ["by", "by", "errors", "events", "periods", "energy", "overlap", "time"])
+        self.assertEqual(
+            [line.split()[0] for line in full if line not in short],
+            ["by", "by", "errors", "events", "periods", "energy", "overlap", "time"],
+        )
 
     def test_the_report_has_one_rate_and_another_only_if_it_differs(self):
         # Near N_c the rates differ by 0.004; the errors of 1200 periods are 0.0005.
         for discs, periods, expected in ((48, 100, 1), (38, 1200, 2)):
             out = swirl("run", "--discs", discs, "--periods", periods).stdout
             self.assertEqual(out.count("ϖ/Ω"), expected, out)
-        self.assertRegex(out, r"(?m)^  rigid body  ϖ/Ω = −0\.\d+ ± 0\.\d+, another rate than the mean over the discs above$")
+        self.assertRegex(
+            out,
+            r"(?m)^  rigid body  ϖ/Ω = −0\.\d+ ± 0\.\d+, another rate than the mean over the discs "
+            r"above$",
+        )
 
     def test_errors_of_few_periods_are_those_of_the_json(self):
-        done = swirl("run", "--discs", 28, "--periods", 9, "--warmup", 5, "--measure", "slip", "--json", "-")
+        done = swirl(
+            "run", "--discs", 28, "--periods", 9, "--warmup", 5, "--measure", "slip", "--json", "-"
+        )
         result = json.loads(done.stdout)
-        for name, estimate in (("ϖ/Ω =", result["rotation"]["mean_by_time"]),
-                               ("slip.cluster", result["measured"]["slip"]["cluster"])):
+        for name, estimate in (
+            ("ϖ/Ω =", result["rotation"]["mean_by_time"]),
+            ("slip.cluster", result["measured"]["slip"]["cluster"]),
+        ):
             self.assertEqual(estimate["blocks"], 4)
             printed = float(re.search(rf"{name}[^±]+± ([\d.]+)", done.stderr)[1])
             # The report rounds to one digit: 0.0195 to 0.025 are 0.02.
@@ -170,11 +241,19 @@ class Report(ProgramTest):
         self.assertNotIn("±", swirl("run", "--discs", 28, "--periods", 8, "--warmup", 5).stdout)
 
     def test_numbers_and_nouns_agree(self):
-        self.assertIn("  4 periods after a warm-up of 1\n", swirl("run", "--discs", 5, "--periods", 5, "--warmup", 1).stdout)
-        self.assertIn("1 period, no warm-up\n", swirl("run", "--discs", 5, "--periods", 1, "--warmup", 0).stdout)
+        self.assertIn(
+            "  4 periods after a warm-up of 1\n",
+            swirl("run", "--discs", 5, "--periods", 5, "--warmup", 1).stdout,
+        )
+        self.assertIn(
+            "1 period, no warm-up\n",
+            swirl("run", "--discs", 5, "--periods", 1, "--warmup", 0).stdout,
+        )
 
     def test_a_measurement_without_values_is_one_line(self):
-        out = swirl("run", "--discs", 5, "--events", 20000, "--measure", "rolling,slip,centre,collisions").stdout
+        out = swirl(
+            "run", "--discs", 5, "--events", 20000, "--measure", "rolling,slip,centre,collisions"
+        ).stdout
         self.assertRegex(out, r"(?m)^  rolling +n/a$")
         self.assertNotIn("rolling.", out)
         self.assertIn("slip.cluster", out)
@@ -183,9 +262,13 @@ class Report(ProgramTest):
     def test_quiet_prints_one_line_and_all_warnings(self):
         done = swirl("run", "--events", 1000, "--quiet")
         self.assertEqual(done.stdout.count("\n"), 1)
-        self.assertRegex(done.stderr, r"\Awarning: the run covers 0\.25 periods[^\n]+\nhint: [^\n]+\n\Z")
-        self.assertIn("warning: without friction, the energy grows without bound",
-                      swirl("run", "--mu", 0, "--events", 100000, "--quiet").stderr)
+        self.assertRegex(
+            done.stderr, r"\Awarning: the run covers 0\.25 periods[^\n]+\nhint: [^\n]+\n\Z"
+        )
+        self.assertIn(
+            "warning: without friction, the energy grows without bound",
+            swirl("run", "--mu", 0, "--events", 100000, "--quiet").stderr,
+        )
         self.assertEqual(swirl("run", "--discs", 28, "--periods", 120, "--quiet").stderr, "")
 
     def test_a_log_file_gets_no_progress_bar(self):
@@ -196,8 +279,12 @@ class Report(ProgramTest):
 
 class Stopping(InFolder):
     def start(self, *arguments):
-        process = subprocess.Popen([SWIRL, "run", "--events", "1e14", *arguments],
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [SWIRL, "run", "--events", "1e14", *arguments],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         self.assertTrue(worked(process, 0.5))
         return process
 

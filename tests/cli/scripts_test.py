@@ -24,8 +24,13 @@ class Scripts(InFolder):
         """A copy of the program with this name draws Figure 5b."""
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         shutil.copy(SWIRL, self.path(name))
-        return subprocess.run([self.path(name), *FIGURE, "--out", self.path("out")], timeout=HANG,
-                              capture_output=True, text=True, cwd=self.folder)
+        return subprocess.run(
+            [self.path(name), *FIGURE, "--out", self.path("out")],
+            timeout=HANG,
+            capture_output=True,
+            text=True,
+            cwd=self.folder,
+        )
 
     def assert_not_found(self, done):
         self.assertFalse(self.has_run())
@@ -33,8 +38,13 @@ class Scripts(InFolder):
         self.assertIn("set SWIRL_FIGURES", done.stderr)
 
     def test_copied_program_runs_no_scripts_of_parent_folders(self):
-        self.trap(*(f"{parent}paper/{name}.py" for parent in ("", "a/", "a/b/")
-                    for name in ("style", "__main__", "catalogue", "console")))
+        self.trap(
+            *(
+                f"{parent}paper/{name}.py"
+                for parent in ("", "a/", "a/b/")
+                for name in ("style", "__main__", "catalogue", "console")
+            )
+        )
         self.assert_not_found(self.copied("a/b/swirl"))
 
     def test_scripts_of_another_owner_are_not_run(self):
@@ -50,17 +60,27 @@ class Scripts(InFolder):
     def test_installed_program_finds_its_scripts(self):
         shutil.copytree(os.path.join(SOURCE, "paper"), self.path("share/swirl/paper"))
         os.makedirs(self.path("bin"))
-        os.symlink(os.path.join(os.path.dirname(SWIRL), "python"), self.path("bin/python"))  # the module
+        os.symlink(
+            os.path.join(os.path.dirname(SWIRL), "python"), self.path("bin/python")
+        )  # the module
         done = self.copied("bin/swirl")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(os.path.exists(self.path("out/figure_5b.pdf")))
 
     def test_modules_from_the_environment_are_ignored(self):
-        self.trap("matplotlib.py", "numpy.py", "style.py",
-                  "home/lib/python3.11/site-packages/usercustomize.py")
-        done = swirl(*FIGURE, "--out", self.path("out"), cwd=self.folder,
-                     environment={"PYTHONPATH": f":{self.folder}:",
-                                  "PYTHONUSERBASE": self.path("home")})
+        self.trap(
+            "matplotlib.py",
+            "numpy.py",
+            "style.py",
+            "home/lib/python3.11/site-packages/usercustomize.py",
+        )
+        done = swirl(
+            *FIGURE,
+            "--out",
+            self.path("out"),
+            cwd=self.folder,
+            environment={"PYTHONPATH": f":{self.folder}:", "PYTHONUSERBASE": self.path("home")},
+        )
         self.assertFalse(self.has_run())
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertTrue(os.path.exists(self.path("out/figure_5b.pdf")))

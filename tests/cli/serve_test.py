@@ -42,16 +42,22 @@ RAW = [
     ("no Host", b"GET / HTTP/1.1\r\n\r\n", 403),
     ("no Host, HTTP/1.0", b"GET / HTTP/1.0\r\n\r\n", 403),
     ("long headers", b"GET / HTTP/1.1\r\nHost: {host}\r\nX: " + 17_000 * b"x" + b"\r\n\r\n", 431),
-    ("two lengths", b"POST / HTTP/1.1\r\nHost: {host}\r\nContent-Length: 1\r\n"
-                    b"Content-Length: 2\r\n\r\nab", 400),
+    (
+        "two lengths",
+        b"POST / HTTP/1.1\r\nHost: {host}\r\nContent-Length: 1\r\n" b"Content-Length: 2\r\n\r\nab",
+        400,
+    ),
     ("a body", b"POST / HTTP/1.1\r\nHost: {host}\r\nContent-Length: 2\r\n\r\nab", 405),
     ("OPTIONS", b"OPTIONS * HTTP/1.1\r\nHost: {host}\r\n\r\n", 405),
     ("DELETE", b"DELETE / HTTP/1.1\r\nHost: {host}\r\n\r\n", 405),
     ("TRACE", b"TRACE / HTTP/1.1\r\nHost: {host}\r\n\r\n", 405),
     ("CONNECT", b"CONNECT example.org:443 HTTP/1.1\r\nHost: {host}\r\n\r\n", None),
     ("an expectation", b"GET / HTTP/1.1\r\nHost: {host}\r\nExpect: nonsense\r\n\r\n", 417),
-    ("an upgrade", b"GET / HTTP/1.1\r\nHost: {host}, Upgrade\r\n"
-                   b"Upgrade: websocket\r\n\r\n", 200),
+    (
+        "an upgrade",
+        b"GET / HTTP/1.1\r\nHost: {host}, Upgrade\r\n" b"Upgrade: websocket\r\n\r\n",
+        200,
+    ),
 ]
 
 
@@ -67,7 +73,9 @@ class Serve(InFolder):
             self.port = free.getsockname()[1]
         self.server = subprocess.Popen(
             ["node", os.path.join(SOURCE, "web", "serve.mjs"), self.page, str(self.port), "no"],
-            stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
         self.addCleanup(self.end)
         self.assertIn(b"http://localhost:", self.server.stdout.readline())
 
@@ -93,7 +101,9 @@ class Serve(InFolder):
 
     def get(self, target, host=None):
         host = host if host is not None else f"localhost:{self.port}"
-        return (f"GET {target} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").encode("latin1")
+        return (f"GET {target} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").encode(
+            "latin1"
+        )
 
     def assert_serves(self):
         self.assertIsNone(self.server.poll(), "the server has ended")
@@ -119,8 +129,9 @@ class Serve(InFolder):
     def test_half_open_and_broken_connections_do_not_block_others(self):
         half_open = []
         for sent in (b"", b"GET / HTTP/1.1\r\nHost:", b"GET "):
-            half_open += [socket.create_connection(("127.0.0.1", self.port), timeout=HANG)
-                          for _ in range(20)]
+            half_open += [
+                socket.create_connection(("127.0.0.1", self.port), timeout=HANG) for _ in range(20)
+            ]
             for connection in half_open[-20:]:
                 connection.sendall(sent)
         self.assert_serves()
@@ -131,11 +142,23 @@ class Serve(InFolder):
 
     def test_only_names_of_this_machine_are_accepted(self):
         port = self.port
-        for host in (f"localhost:{port}", f"127.0.0.1:{port}", f"[::1]:{port}", f"LOCALHOST:{port}"):
+        for host in (
+            f"localhost:{port}",
+            f"127.0.0.1:{port}",
+            f"[::1]:{port}",
+            f"LOCALHOST:{port}",
+        ):
             self.assertEqual(self.status(self.get("/", host)), 200, host)
-        for host in ("localhost", f"localhost:{port + 1}", f"example.org:{port}", "example.org", "",
-                     f"localhost.example.org:{port}", f"127.0.0.1.example.org:{port}",
-                     f"example.org#localhost:{port}"):
+        for host in (
+            "localhost",
+            f"localhost:{port + 1}",
+            f"example.org:{port}",
+            "example.org",
+            "",
+            f"localhost.example.org:{port}",
+            f"127.0.0.1.example.org:{port}",
+            f"example.org#localhost:{port}",
+        ):
             self.assertEqual(self.status(self.get("/", host)), 403, host)
         self.assert_serves()
 

@@ -1,5 +1,6 @@
-"""`swirl site` replaces a complete site by a complete site, even if it is interrupted between its two renames.
-The tests run web/site.sh in a small tree with stand-ins for its tools, among them an interrupted `mv`."""
+"""`swirl site` replaces a complete site by a complete site, even if it is interrupted between its
+two renames. The tests run web/site.sh in a small tree with stand-ins for its tools, among them an
+interrupted `mv`."""
 
 import fcntl
 import os
@@ -11,9 +12,10 @@ from program import HANG, SOURCE, InFolder, read_text, write_text
 
 # Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
-    "web/lab.sh": 'for a; do case $a in *.html) echo \'<meta charset="utf-8">\' >"$a" ;; esac; done',
+    "web/lab.sh": 'for a; do case $a in *.html) echo \'<meta charset="utf-8">\' >"$a" ;; esac; '
+    "done",
     "bin/sphinx-build": '[ -z "${FAIL-}" ] || exit 1\nfor a; do :; done\n'
-                        'echo "$PAGE${SWIRL_SITE_ADDRESS:+ at $SWIRL_SITE_ADDRESS}" >"$a/index.html"',
+    'echo "$PAGE${SWIRL_SITE_ADDRESS:+ at $SWIRL_SITE_ADDRESS}" >"$a/index.html"',
     # Call number AT sends SIGNAL to the calling shell, before or after its rename.
     "bin/mv": """count=$(($(cat "$COUNT" 2>/dev/null || echo 0) + 1))
 echo $count >"$COUNT"
@@ -43,11 +45,21 @@ class SiteNames(InFolder):
         if os.path.exists(self.path("count")):
             os.remove(self.path("count"))
         settings = {"AT": "0", "WHEN": "", "SIGNAL": "", **more}
-        return subprocess.run([self.path("web/site.sh"), "--out", self.site, *options], capture_output=True, text=True,
-                              timeout=HANG, env={**os.environ, **settings, "PAGE": page,
-                                               "COUNT": self.path("count"), "SWIRL": self.path("bin/swirl"),
-                                               "SWIRL_PYTHON": "false",
-                                               "PATH": self.path("bin") + ":" + os.environ["PATH"]})
+        return subprocess.run(
+            [self.path("web/site.sh"), "--out", self.site, *options],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+            env={
+                **os.environ,
+                **settings,
+                "PAGE": page,
+                "COUNT": self.path("count"),
+                "SWIRL": self.path("bin/swirl"),
+                "SWIRL_PYTHON": "false",
+                "PATH": self.path("bin") + ":" + os.environ["PATH"],
+            },
+        )
 
     def page(self):
         return read_text(os.path.join(self.site, "index.html")).strip()
@@ -79,18 +91,30 @@ class SiteNames(InFolder):
         os.makedirs(self.path("docs/images"))
         write_text(self.path("docs/images/lab_preview.png"), "picture")
         self.assertEqual(self.make("page", "--address", "https://example.org/swirl").returncode, 0)
-        read = lambda name: open(os.path.join(self.site, name), encoding="utf-8").read()  # noqa: E731
+        read = lambda name: open(
+            os.path.join(self.site, name), encoding="utf-8"
+        ).read()  # noqa: E731
         at = "https://example.org/swirl/"
         self.assertEqual(read("sitemap.txt"), f"{at}index.html\n{at}lab.html\n")
         self.assertEqual(read("robots.txt"), f"Sitemap: {at}sitemap.txt\n")
-        for tag in (f'<link rel="canonical" href="{at}lab.html">', f'<meta property="og:image" content="{at}preview.png">'):
+        for tag in (
+            f'<link rel="canonical" href="{at}lab.html">',
+            f'<meta property="og:image" content="{at}preview.png">',
+        ):
             self.assertIn(tag, read("lab.html"))
         self.assertEqual(read("preview.png"), "picture")
-        self.assertEqual(self.page(), f"page at {at}")  # docs/conf.py makes the tags of the documentation
+        self.assertEqual(
+            self.page(), f"page at {at}"
+        )  # docs/conf.py makes the tags of the documentation
         self.assertEqual(self.make("page").returncode, 0)
         self.assertFalse({"sitemap.txt", "robots.txt", "preview.png"} & set(os.listdir(self.site)))
         self.assertNotIn("canonical", read("lab.html"))
-        for wrong in ("example.org", "https://", "https://example.org/a b", "https://example.org/'><script>"):
+        for wrong in (
+            "example.org",
+            "https://",
+            "https://example.org/a b",
+            "https://example.org/'><script>",
+        ):
             done = self.make("page", "--address", wrong)
             self.assertEqual(done.returncode, 2, wrong)
             self.assertIn("--address is", done.stderr)

@@ -1,4 +1,5 @@
-"""The site: every link has a target, no page makes a request to another host, and only a site is replaced."""
+"""The site: every link has a target, no page makes a request to another host, and only a site is
+replaced."""
 
 import os
 import re
@@ -13,9 +14,12 @@ from urllib.parse import unquote, urlsplit
 from program import ALL, HANG, SOURCE, SWIRL, made_of_the_web, main, read_text, write_text
 
 SITE = os.path.join(SOURCE, "web", "site.sh")
-# With --all the notebooks are executed, with the Python module of this build. Else python.notebooks_test
-# executes them, and the site shows them without output.
-WITH_MODULE = {"SWIRL_PYTHON": "/usr/bin/python3", "PYTHONPATH": os.path.join(os.environ["SWIRL_LIBRARIES"], "python")}
+# With --all the notebooks are executed, with the Python module of this build. Else
+# python.notebooks_test executes them, and the site shows them without output.
+WITH_MODULE = {
+    "SWIRL_PYTHON": "/usr/bin/python3",
+    "PYTHONPATH": os.path.join(os.environ["SWIRL_LIBRARIES"], "python"),
+}
 ENVIRONMENT = {**os.environ, **(WITH_MODULE if ALL else {"SWIRL_PYTHON": "false"})}
 CHROMIUM = shutil.which("chromium")
 
@@ -67,18 +71,30 @@ class Site(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         # With --all the movies of the gallery have their whole length, else half a second.
         program = os.path.join(folder.name, "swirl")
-        write_text(program, "#!/bin/sh\n" + ("" if ALL else '[ "$1" != movie ] || set -- "$@" --seconds 0.5\n') +
-                   f'exec {shlex.quote(os.path.abspath(SWIRL))} "$@"\n')
+        write_text(
+            program,
+            "#!/bin/sh\n"
+            + ("" if ALL else '[ "$1" != movie ] || set -- "$@" --seconds 0.5\n')
+            + f'exec {shlex.quote(os.path.abspath(SWIRL))} "$@"\n',
+        )
         os.chmod(program, 0o755)
         # It replaces an older site.
-        cls.site = made_of_the_web(cls, SITE, "site", before=(".swirl-site", "old.html"),
-                                   env={**ENVIRONMENT, "SWIRL": program})
+        cls.site = made_of_the_web(
+            cls,
+            SITE,
+            "site",
+            before=(".swirl-site", "old.html"),
+            env={**ENVIRONMENT, "SWIRL": program},
+        )
         cls.pages = {}
         for place, _, names in os.walk(cls.site):
             for name in names:
                 path = os.path.join(place, name)
-                if name.endswith(".html") and path != os.path.join(cls.site, "lab.html") and \
-                        "_static" not in path:
+                if (
+                    name.endswith(".html")
+                    and path != os.path.join(cls.site, "lab.html")
+                    and "_static" not in path
+                ):
                     parsed = Links()
                     parsed.feed(read_text(path))
                     cls.pages[path] = parsed
@@ -91,22 +107,32 @@ class Site(unittest.TestCase):
                 if parts.scheme in ("http", "https", "mailto", "data"):
                     continue
                 self.assertEqual(parts.scheme, "", f"{path}: {link}")
-                there = os.path.normpath(os.path.join(os.path.dirname(path), unquote(parts.path))) \
-                    if parts.path else path
+                there = (
+                    os.path.normpath(os.path.join(os.path.dirname(path), unquote(parts.path)))
+                    if parts.path
+                    else path
+                )
                 self.assertTrue(os.path.isfile(there), f"{path}: {link}")
                 if parts.fragment and there in self.pages:
-                    self.assertIn(unquote(parts.fragment), self.pages[there].names, f"{path}: {link}")
+                    self.assertIn(
+                        unquote(parts.fragment), self.pages[there].names, f"{path}: {link}"
+                    )
                 checked += 1
         self.assertGreater(checked, 500)
 
     def test_every_document_has_a_page_in_the_contents(self):
-        documents = [os.path.join(place, name)
-                     for place, _, names in os.walk(os.path.join(SOURCE, "docs")) for name in names
-                     if name.endswith(".md")]
+        documents = [
+            os.path.join(place, name)
+            for place, _, names in os.walk(os.path.join(SOURCE, "docs"))
+            for name in names
+            if name.endswith(".md")
+        ]
         self.assertGreater(len(documents), 10)
         home = os.path.join(self.site, "docs", "index.html")
-        listed = {os.path.normpath(os.path.join(os.path.dirname(home), urlsplit(link).path))
-                  for link in self.pages[home].links}
+        listed = {
+            os.path.normpath(os.path.join(os.path.dirname(home), urlsplit(link).path))
+            for link in self.pages[home].links
+        }
         for path in documents:
             page = os.path.join(self.site, os.path.relpath(path, SOURCE)[:-3] + ".html")
             self.assertIn(page, self.pages)
@@ -114,15 +140,25 @@ class Site(unittest.TestCase):
                 self.assertIn(page, listed)
 
     def test_the_sidebar_has_the_order_of_the_index(self):
-        listed = re.findall(r"^- .*?\]\(([a-z-]+/\w+)\.md\)", read_text(os.path.join(SOURCE, "docs", "index.md")), re.M)
+        listed = re.findall(
+            r"^- .*?\]\(([a-z-]+/\w+)\.md\)",
+            read_text(os.path.join(SOURCE, "docs", "index.md")),
+            re.M,
+        )
         with open(os.path.join(self.site, "docs", "index.html"), encoding="utf-8") as opened:
             sidebar = opened.read().split('class="sidebar-tree"')[1].split("</aside>")[0]
         self.assertGreater(len(listed), 30)
-        self.assertEqual([link for link in re.findall(r'href="([a-z-]+/\w+)\.html"', sidebar) if link in listed], listed)
+        self.assertEqual(
+            [link for link in re.findall(r'href="([a-z-]+/\w+)\.html"', sidebar) if link in listed],
+            listed,
+        )
 
     def test_the_front_page_begins_with_name_purpose_and_the_live_dish(self):
         text = read_text(os.path.join(self.site, "docs", "index.html")).split("<article", 1)[1]
-        parts = [text.index(part) for part in ("<h1>swirl", "many against it", "<iframe", "<h2>Questions")]
+        parts = [
+            text.index(part)
+            for part in ("<h1>swirl", "many against it", "<iframe", "<h2>Questions")
+        ]
         self.assertEqual(parts, sorted(parts))
 
     def test_pages_have_a_title_and_a_text_for_links_to_them(self):
@@ -133,16 +169,23 @@ class Site(unittest.TestCase):
     def test_symbols_have_subscripts_and_formulas_the_size_of_the_text(self):
         text = read_text(os.path.join(self.site, "docs", "explanation", "why.html"))
         self.assertIn("R<sub>c</sub>", text)
-        self.assertRegex(text, r'class="formula" style="vertical-align: -[0-9.]+em"><svg [^>]*width="[0-9.]+em"')
+        self.assertRegex(
+            text, r'class="formula" style="vertical-align: -[0-9.]+em"><svg [^>]*width="[0-9.]+em"'
+        )
 
     def test_options_keep_their_hyphens(self):
-        self.assertIn("value of --mu]", read_text(os.path.join(self.site, "docs", "reference", "parameters.html")))
+        self.assertIn(
+            "value of --mu]",
+            read_text(os.path.join(self.site, "docs", "reference", "parameters.html")),
+        )
 
     def test_the_home_page_leads_to_the_documentation(self):
         self.assertIn('href="docs/index.html"', read_text(os.path.join(self.site, "index.html")))
 
     def test_the_search_index_is_a_script(self):  # a browser does not load JSON from file://
-        self.assertTrue(read_text(os.path.join(self.site, "searchindex.js")).startswith("Search.setIndex("))
+        self.assertTrue(
+            read_text(os.path.join(self.site, "searchindex.js")).startswith("Search.setIndex(")
+        )
 
     def test_the_gallery_shows_the_output_of_its_commands(self):
         with open(os.path.join(SOURCE, "web", "gallery.txt"), encoding="utf-8") as opened:
@@ -158,9 +201,14 @@ class Site(unittest.TestCase):
             self.assertIn(os.path.basename(stored[0]) if stored else command.split()[-1], shown)
         # The gallery has all images of the documentation, and one of the ten states of the page.
         stored = {line[2] for line in lines if len(line) == 3}
-        images = {f"docs/images/{name}" for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
-                  if name.endswith((".png", ".gif"))}
-        images = {image for image in images if not os.path.basename(image).startswith("lab_")} | {"docs/images/lab_start.png"}
+        images = {
+            f"docs/images/{name}"
+            for name in os.listdir(os.path.join(SOURCE, "docs", "images"))
+            if name.endswith((".png", ".gif"))
+        }
+        images = {image for image in images if not os.path.basename(image).startswith("lab_")} | {
+            "docs/images/lab_start.png"
+        }
         self.assertEqual(images - stored, set())
 
     def test_notebooks_are_pages(self):
@@ -184,7 +232,9 @@ class Site(unittest.TestCase):
     def test_no_page_loads_from_another_host(self):
         for path in self.pages:
             text = read_text(path)
-            self.assertNotRegex(text, r"""<(script|link|img|iframe)[^>]+(src|href)=["']https?:""", path)
+            self.assertNotRegex(
+                text, r"""<(script|link|img|iframe)[^>]+(src|href)=["']https?:""", path
+            )
 
     def test_the_pages_in_a_browser(self):
         if not CHROMIUM:
@@ -192,10 +242,14 @@ class Site(unittest.TestCase):
         script = os.path.join(SOURCE, "web", "node_modules", f".site_test_{os.getpid()}.mjs")
         write_text(script, BROWSER)
         self.addCleanup(os.remove, script)
-        documents = [path for path in sorted(self.pages)
-                     if re.search(r"/(search|gallery|README)\.html$|/docs/", path)]
-        done = subprocess.run(["node", script, CHROMIUM, *documents], capture_output=True, text=True,
-                              timeout=HANG)
+        documents = [
+            path
+            for path in sorted(self.pages)
+            if re.search(r"/(search|gallery|README)\.html$|/docs/", path)
+        ]
+        done = subprocess.run(
+            ["node", script, CHROMIUM, *documents], capture_output=True, text=True, timeout=HANG
+        )
         self.assertEqual((done.returncode, done.stdout.strip()), (0, ""), done.stderr)
 
     def test_only_a_site_is_replaced(self):
@@ -208,9 +262,12 @@ class Site(unittest.TestCase):
         self.assertTrue(os.listdir(other))
 
     def test_usage_errors(self):
-        for wrong, message in (([], "missing required option --out"), (["--out"], "--out needs a value"),
-                            (["--to", "x"], "'--to'"),
-                            (["--out", "x", "--report", "/nowhere"], "no report.html")):
+        for wrong, message in (
+            ([], "missing required option --out"),
+            (["--out"], "--out needs a value"),
+            (["--to", "x"], "'--to'"),
+            (["--out", "x", "--report", "/nowhere"], "no report.html"),
+        ):
             done = subprocess.run([SITE, *wrong], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2, wrong)
             self.assertIn(message, done.stderr)

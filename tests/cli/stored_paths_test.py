@@ -16,11 +16,28 @@ class StoredPaths(InFolder):
         write_text(os.path.join(folder, "a.toml"), f"# by {FOLDER}\ndiscs = 3\n")
         write_text(os.path.join(folder, "path.csv"), "t,x,y\n0,0,0\n1,1,0\n2,1,1\n3,0,0\n")
         write_text(os.path.join(folder, "sizes.csv"), "radius\n1\n1\n0.9\n")
-        names = {option: os.path.join(folder, name) for option, name in (
-            ("--trajectory", "t.h5"), ("--log-events", "e.h5"), ("--series", "s.csv"), ("--json", "r.json"))}
-        self.assert_works("run", os.path.join(folder, "a.toml"), "--path=" + os.path.join(folder, "path.csv"),
-                          "--periods", 4, "--warmup", 1, "--quiet", "--overwrite",
-                          *(word for pair in names.items() for word in pair), *more)
+        names = {
+            option: os.path.join(folder, name)
+            for option, name in (
+                ("--trajectory", "t.h5"),
+                ("--log-events", "e.h5"),
+                ("--series", "s.csv"),
+                ("--json", "r.json"),
+            )
+        }
+        self.assert_works(
+            "run",
+            os.path.join(folder, "a.toml"),
+            "--path=" + os.path.join(folder, "path.csv"),
+            "--periods",
+            4,
+            "--warmup",
+            1,
+            "--quiet",
+            "--overwrite",
+            *(word for pair in names.items() for word in pair),
+            *more,
+        )
         found = b""
         for name in names.values():
             found += read_bytes(name)
@@ -35,16 +52,53 @@ class StoredPaths(InFolder):
         self.assertIn(b"swirl run a.toml --path=path.csv", found)
 
     def test_only_folders_are_omitted(self):
-        done = swirl("run", "--discs", 3, "--sizes", "uniform:0.9:1", "--ramp", "mu=0:1@1..2", "--periods", 3,
-                     "--warmup", 0, "--series", f"{self.folder}//s.csv", "--json", "-", "--quiet", "--omit-paths")
+        done = swirl(
+            "run",
+            "--discs",
+            3,
+            "--sizes",
+            "uniform:0.9:1",
+            "--ramp",
+            "mu=0:1@1..2",
+            "--periods",
+            3,
+            "--warmup",
+            0,
+            "--series",
+            f"{self.folder}//s.csv",
+            "--json",
+            "-",
+            "--quiet",
+            "--omit-paths",
+        )
         self.assertIn("--sizes uniform:0.9:1 --ramp mu=0:1@1..2 ", done.stdout, done.stderr)
         self.assertIn("--series s.csv", done.stdout)
 
     def test_tracks_have_no_folders(self):
         os.mkdir(self.path(FOLDER))
         video = self.path(f"{FOLDER}/lab.mp4")
-        done = swirl("synthetic-video", "--discs", 20, "--container-radius", 6.5, "--scale", 12, "--width", 240,
-                     "--height", 240, "--length", 1.15, "--frames-per-period", 64, "--seed", 3, "--out", video, "--quiet")
+        done = swirl(
+            "synthetic-video",
+            "--discs",
+            20,
+            "--container-radius",
+            6.5,
+            "--scale",
+            12,
+            "--width",
+            240,
+            "--height",
+            240,
+            "--length",
+            1.15,
+            "--frames-per-period",
+            64,
+            "--seed",
+            3,
+            "--out",
+            video,
+            "--quiet",
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         out = self.path("tracks.h5")
         done = swirl("track", video, "--out", out, "--quiet", "--omit-paths")

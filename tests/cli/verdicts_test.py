@@ -5,7 +5,30 @@ import random
 import unittest
 
 import claim_tables  # noqa: F401  (finds paper/)
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, Judgement, Value, above, agreed, below, combined, either, every, fact, falls, largest_reversal, mean_of, measured, rises, scattered, threshold, trend, within
+from verdicts import (
+    FAILS,
+    HOLDS,
+    IN_PART,
+    UNDECIDED,
+    Judgement,
+    Value,
+    above,
+    agreed,
+    below,
+    combined,
+    either,
+    every,
+    fact,
+    falls,
+    largest_reversal,
+    mean_of,
+    measured,
+    rises,
+    scattered,
+    threshold,
+    trend,
+    within,
+)
 
 
 class Rules(unittest.TestCase):
@@ -13,8 +36,16 @@ class Rules(unittest.TestCase):
 
     def test_threshold_is_student_t(self):
         # Quantiles of Student's t for 99.73 %, from published tables.
-        for freedom, t in ((1, 235.8), (2, 19.21), (4, 6.62), (7, 4.53), (10, 3.96), (20, 3.42),
-                           (50, 3.16), (100, 3.08)):
+        for freedom, t in (
+            (1, 235.8),
+            (2, 19.21),
+            (4, 6.62),
+            (7, 4.53),
+            (10, 3.96),
+            (20, 3.42),
+            (50, 3.16),
+            (100, 3.08),
+        ):
             self.assertAlmostEqual(threshold(freedom) / t, 1, 2)
         self.assertEqual(threshold(math.inf), 3)
         found = [threshold(k / 4) for k in range(4, 80)]
@@ -107,7 +138,12 @@ class Rules(unittest.TestCase):
         self.assertEqual(combined(no, undecided), UNDECIDED)
 
     def test_every_rule_preserves_holds_in_part(self):
-        yes, no, half, undecided = Judgement(HOLDS), Judgement(FAILS), Judgement(IN_PART), Judgement(UNDECIDED, ["a"])
+        yes, no, half, undecided = (
+            Judgement(HOLDS),
+            Judgement(FAILS),
+            Judgement(IN_PART),
+            Judgement(UNDECIDED, ["a"]),
+        )
         self.assertEqual(every([half, yes]), IN_PART)
         self.assertEqual(every([half, no]), FAILS)
         self.assertEqual(every([half, undecided]), UNDECIDED)
@@ -128,7 +164,9 @@ class Rules(unittest.TestCase):
         self.assertEqual(every([above(certain, 0), above(doubtful, 0)]).points, {"b"})
         self.assertEqual(above(certain - Value(8, 1, ["c"]), 0).points, {"a", "c"})
         self.assertEqual(above(certain, 0).points, frozenset())
-        self.assertEqual(combined(above(doubtful, 0), Judgement(FAILS), fact(True)).points, frozenset())
+        self.assertEqual(
+            combined(above(doubtful, 0), Judgement(FAILS), fact(True)).points, frozenset()
+        )
         self.assertEqual(mean_of([certain, doubtful]).points, {"a", "b"})
 
     def test_mean_of_independent_values(self):
@@ -140,14 +178,14 @@ class Rules(unittest.TestCase):
         found = scattered([1.0, 2.0, 3.0], ["a"])
         self.assertEqual(found.mean, 2)
         # The margin has Student's t for two degrees of freedom.
-        self.assertAlmostEqual(found.error, 1 / 3 ** 0.5)
-        self.assertAlmostEqual(found.margin, 19.207 / 3 ** 0.5)
+        self.assertAlmostEqual(found.error, 1 / 3**0.5)
+        self.assertAlmostEqual(found.margin, 19.207 / 3**0.5)
         self.assertEqual(found.points, {"a"})
         self.assertAlmostEqual(scattered([1.0, 1.0, 1.0, 1.0], least=0.5).error, 0.25)
         self.assertEqual(above(scattered([1.0]), 0), UNDECIDED)
         self.assertEqual(above(scattered([]), 0), UNDECIDED)
         many = scattered([0.0, 1.0] * 500)
-        self.assertAlmostEqual(many.error, 0.5 / 1000 ** 0.5, 3)
+        self.assertAlmostEqual(many.error, 0.5 / 1000**0.5, 3)
 
     def test_trend_has_the_error_of_its_residuals(self):
         self.assertAlmostEqual(trend([1.0, 2.0, 3.0]).mean, 1.0)
@@ -210,9 +248,9 @@ def replicates(means):
 
 
 def share_decided(between, counts, repetitions, source):
-    """How often a value exactly on its bound is decided, although no verdict is correct there. The runs differ by
-    `between` times the errors of their blocks. Seeds are added until the value is decided
-    (add_seeds_to_undecided in paper/command.py)."""
+    """How often a value exactly on its bound is decided, although no verdict is correct there. The
+    runs differ by `between` times the errors of their blocks. Seeds are added until the value is
+    decided (add_seeds_to_undecided in paper/command.py)."""
     decided = 0
     for _ in range(repetitions):
         means = [source.gauss(0, math.hypot(1, between)) for _ in range(counts[-1])]
@@ -231,12 +269,14 @@ class FalseDecisions(unittest.TestCase):
 
     def test_chance_decides_at_most_one_per_cent_although_seeds_are_added(self):
         source = random.Random(7)
-        # Three standard deviations are 0.27 %. 100,000 repetitions gave 0.55 % at worst, that is 22 ± 5
-        # of 4000; three standard deviations above it are 1 %. A fixed threshold of three errors would
-        # decide 2.4 % with 8 seeds and 9 % with 3.
+        # Three standard deviations are 0.27 %. 100,000 repetitions gave 0.55 % at worst, that is 22
+        # ± 5 of 4000; three standard deviations above it are 1 %. A fixed threshold of three errors
+        # would decide 2.4 % with 8 seeds and 9 % with 3.
         for counts in ((8, 16, 32), (3, 6, 12)):
             for between in (0, 2, 20):
-                self.assertLessEqual(share_decided(between, counts, 4000, source), 0.01, (counts, between))
+                self.assertLessEqual(
+                    share_decided(between, counts, 4000, source), 0.01, (counts, between)
+                )
 
 
 if __name__ == "__main__":

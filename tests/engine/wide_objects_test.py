@@ -15,7 +15,9 @@ ALLOWED = {
     ("libswirl_engine.a", "event_loop_avx2.cpp.o"): ["swirl::event_loops_avx2"],
     ("libswirl_engine.a", "event_loop_avx512.cpp.o"): ["swirl::event_loops_avx512"],
     ("bench/libswirl_baselines.a", "all_pairs_search_avx2.cpp.o"): ["swirl::all_pairs_search_avx2"],
-    ("bench/libswirl_baselines.a", "all_pairs_search_avx512.cpp.o"): ["swirl::all_pairs_search_avx512"],
+    ("bench/libswirl_baselines.a", "all_pairs_search_avx512.cpp.o"): [
+        "swirl::all_pairs_search_avx512"
+    ],
     ("libswirl_measure.a", "cluster_rotation_avx2.cpp.o"): ["swirl::rotation_avx2::kernel"],
     ("libswirl_measure.a", "cluster_rotation_avx512.cpp.o"): ["swirl::rotation_avx512::kernel"],
 }
@@ -23,8 +25,12 @@ ALLOWED = {
 
 def shared_symbols(library):
     """The external symbols of each member of the library: {member: [symbol]}."""
-    out = subprocess.run(["nm", "-C", "--defined-only", "--extern-only", library],
-                         check=True, capture_output=True, text=True).stdout
+    out = subprocess.run(
+        ["nm", "-C", "--defined-only", "--extern-only", library],
+        check=True,
+        capture_output=True,
+        text=True,
+    ).stdout
     found, member = {}, None
     for line in out.splitlines():
         if line.endswith(":"):
@@ -47,9 +53,12 @@ class WideObjects(unittest.TestCase):
         """Registers of AVX and AVX-512 appear only in these objects, and in functions of which the
         compiler made several versions (their names end with .avx2 and the like)."""
         for library in sorted({library for library, _ in ALLOWED}):
-            out = subprocess.run(["objdump", "-d", "--no-show-raw-insn",
-                                  os.path.join(LIBRARIES, library)],
-                                 check=True, capture_output=True, text=True).stdout
+            out = subprocess.run(
+                ["objdump", "-d", "--no-show-raw-insn", os.path.join(LIBRARIES, library)],
+                check=True,
+                capture_output=True,
+                text=True,
+            ).stdout
             member, function, wide = "", "", set()
             for line in out.splitlines():
                 if ".o:" in line:
@@ -59,8 +68,9 @@ class WideObjects(unittest.TestCase):
                 elif "%ymm" in line or "%zmm" in line:
                     wide.add((member, function))
             self.assertTrue(wide, "the wide objects must have wide instructions")
-            unexpected = [(m, f) for m, f in wide if "_avx" not in m and
-                     not re.search(r"\.(avx|arch_)\w*", f)]
+            unexpected = [
+                (m, f) for m, f in wide if "_avx" not in m and not re.search(r"\.(avx|arch_)\w*", f)
+            ]
             self.assertEqual(unexpected, [])
 
 

@@ -1,6 +1,7 @@
-"""Faults of the system during a run, a sweep and other commands: the k-th call of each kind fails once
-or always, the process is killed before its k-th change of a file, or the power is cut. In each case
-either the program reports an error, or its files are bitwise identical to those of an undisturbed run.
+"""Faults of the system during a run, a sweep and other commands: the k-th call of each kind fails
+once or always, the process is killed before its k-th change of a file, or the power is cut. In each
+case either the program reports an error, or its files are bitwise identical to those of an
+undisturbed run.
 
     faults_test.py          a sample of these, for the default suite
     faults_test.py --all    every k, all errors, and 200 power cuts; prints a table
@@ -26,41 +27,180 @@ from program import HANG, SWIRL  # noqa: E402
 SHIM = os.environ["SWIRL_FAULTS"]
 EVERY = "--all" in sys.argv
 
-RUN = ["run", "--discs", "8", "--events", "3000", "--seed", "3", "--warmup", "2", "--frames", "60",
-       "--trajectory", "t.h5", "--log-events", "e.h5", "--json", "r.json", "--checkpoint-every",
-       "0.001", "--quiet"]
-SWEEP = ["sweep", "--discs", "5:8", "--events", "300", "--threads", "1", "--frames", "4", "--out",
-         "s", "--quiet"]
+RUN = [
+    "run",
+    "--discs",
+    "8",
+    "--events",
+    "3000",
+    "--seed",
+    "3",
+    "--warmup",
+    "2",
+    "--frames",
+    "60",
+    "--trajectory",
+    "t.h5",
+    "--log-events",
+    "e.h5",
+    "--json",
+    "r.json",
+    "--checkpoint-every",
+    "0.001",
+    "--quiet",
+]
+SWEEP = [
+    "sweep",
+    "--discs",
+    "5:8",
+    "--events",
+    "300",
+    "--threads",
+    "1",
+    "--frames",
+    "4",
+    "--out",
+    "s",
+    "--quiet",
+]
 # Commands that read a recording in.h5 or a video in.mp4, which are in a folder without faults.
-OUTPUTS = [["export", "IN/in.h5", "--format", "gsd", "--out", "o.gsd", "--quiet"],
-           ["export", "IN/in.h5", "--format", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
-           ["image", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
-           ["measure", "IN/in.h5", "--measure", "slip", "--json", "o.json", "--quiet"]]
-VIDEO_CALL = ["synthetic-video", "--discs", "6", "--container-radius", "4.5", "--scale", "9", "--width", "130",
-        "--height", "130", "--frames-per-period", "24", "--length", "1.2", "--quiet", "--out"]
-VIDEO_CALLS = [["synthetic-video", "--discs", "3", "--max-frames", "4", "--width", "64", "--height", "64", "--scale", "3",
-          "--quiet", "--out", "o.mp4"],
-         ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
-         ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"]]
-# The other commands that write files, and the other kinds of outputs. IN has a sweep and a table, too.
-DISH = ["dish", "--container-radius", "60mm", "--radius", "8mm", "--amplitude", "15mm", "--rpm", "78", "--quiet"]
+OUTPUTS = [
+    ["export", "IN/in.h5", "--format", "gsd", "--out", "o.gsd", "--quiet"],
+    ["export", "IN/in.h5", "--format", "vtp", "--range", "0:3", "--out", "o.pvd", "--quiet"],
+    ["image", "IN/in.h5", "--size", "64x64", "--out", "o.svg", "--quiet"],
+    ["measure", "IN/in.h5", "--measure", "slip", "--json", "o.json", "--quiet"],
+]
+VIDEO_CALL = [
+    "synthetic-video",
+    "--discs",
+    "6",
+    "--container-radius",
+    "4.5",
+    "--scale",
+    "9",
+    "--width",
+    "130",
+    "--height",
+    "130",
+    "--frames-per-period",
+    "24",
+    "--length",
+    "1.2",
+    "--quiet",
+    "--out",
+]
+VIDEO_CALLS = [
+    [
+        "synthetic-video",
+        "--discs",
+        "3",
+        "--max-frames",
+        "4",
+        "--width",
+        "64",
+        "--height",
+        "64",
+        "--scale",
+        "3",
+        "--quiet",
+        "--out",
+        "o.mp4",
+    ],
+    ["track", "IN/in.mp4", "--quiet", "--out", "o.h5"],
+    ["track", "IN/in.mp4", "--quiet", "--out", "o.csv"],
+]
+# The other commands that write files, and the other kinds of outputs. IN has a sweep and a table,
+# too.
+DISH = [
+    "dish",
+    "--container-radius",
+    "60mm",
+    "--radius",
+    "8mm",
+    "--amplitude",
+    "15mm",
+    "--rpm",
+    "78",
+    "--quiet",
+]
 SHORT = ["--periods", "3", "--warmup", "1", "--quiet", "--out", "s"]
-FURTHER = [[*DISH, "--no-search", "--json", "o.json"],
-           ["collect", "IN/sweep", "--csv", "o.csv", "--crossings", "o.crossings"],
-           ["measure", "IN/in.h5", "--measure", "density", "--tables", "o.tables", "--quiet"],
-           ["image", "IN/in.h5", "--size", "64x64", "--out", "o.png", "--quiet"],
-           ["movie", "IN/in.h5", "--size", "64x64", "--periods", "0.1", "--out", "o.mp4", "--quiet"],
-           ["movie", "IN/in.h5", "--size", "64x64", "--periods", "0.1", "--frame-files", "o.frames", "--quiet"]]
+FURTHER = [
+    [*DISH, "--no-search", "--json", "o.json"],
+    ["collect", "IN/sweep", "--csv", "o.csv", "--crossings", "o.crossings"],
+    ["measure", "IN/in.h5", "--measure", "density", "--tables", "o.tables", "--quiet"],
+    ["image", "IN/in.h5", "--size", "64x64", "--out", "o.png", "--quiet"],
+    ["movie", "IN/in.h5", "--size", "64x64", "--periods", "0.1", "--out", "o.mp4", "--quiet"],
+    [
+        "movie",
+        "IN/in.h5",
+        "--size",
+        "64x64",
+        "--periods",
+        "0.1",
+        "--frame-files",
+        "o.frames",
+        "--quiet",
+    ],
+]
 # These draw figures or track a video, and take seconds.
-LONGER = [[*DISH, "--my-points", "IN/points.csv", "--mu", "0.2,0.5", "--seeds", "1", *SHORT],
-          ["crossing", "--mu", "0.5,1", "--from", "4", "--to", "7", "--events", "300", "--tolerance", "2", "--plot", "--csv",
-           "o.csv", "--json", "o.json", "--threads", "1", "--quiet", "--out", "s"],
-          ["map", "--x", "mu=0:1", "--steps", "3", "--discs", "5", "--seeds", "2", "--threads", "1", *SHORT],
-          ["track", "IN/in.mp4", "--out", "o.csv", "--overlay", "o.overlay.mp4", "--report", "o.report", "--json", "o.json",
-           "--quiet"],
-          ["experiment", "IN/in.mp4", "--seeds", "1", *SHORT]]
-WITHOUT_KILLS = {"verify": "writes no file",
-                 "paper": "waits for a process of its pool that is killed; paper_test.py kills it"}
+LONGER = [
+    [*DISH, "--my-points", "IN/points.csv", "--mu", "0.2,0.5", "--seeds", "1", *SHORT],
+    [
+        "crossing",
+        "--mu",
+        "0.5,1",
+        "--from",
+        "4",
+        "--to",
+        "7",
+        "--events",
+        "300",
+        "--tolerance",
+        "2",
+        "--plot",
+        "--csv",
+        "o.csv",
+        "--json",
+        "o.json",
+        "--threads",
+        "1",
+        "--quiet",
+        "--out",
+        "s",
+    ],
+    [
+        "map",
+        "--x",
+        "mu=0:1",
+        "--steps",
+        "3",
+        "--discs",
+        "5",
+        "--seeds",
+        "2",
+        "--threads",
+        "1",
+        *SHORT,
+    ],
+    [
+        "track",
+        "IN/in.mp4",
+        "--out",
+        "o.csv",
+        "--overlay",
+        "o.overlay.mp4",
+        "--report",
+        "o.report",
+        "--json",
+        "o.json",
+        "--quiet",
+    ],
+    ["experiment", "IN/in.mp4", "--seeds", "1", *SHORT],
+]
+WITHOUT_KILLS = {
+    "verify": "writes no file",
+    "paper": "waits for a process of its pool that is killed; paper_test.py kills it",
+}
 CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
 BEFORE_MAIN = 80  # upper limit of the calls of new before main(), where no error can be reported
 PAGE = 4096
@@ -72,8 +212,13 @@ def report(line):
 
 
 def setting(call, at, error=0, **more):
-    return {"LD_PRELOAD": SHIM, "FAULT_CALL": call, "FAULT_AT": str(at), "FAULT_ERRNO": str(error),
-            **more}
+    return {
+        "LD_PRELOAD": SHIM,
+        "FAULT_CALL": call,
+        "FAULT_AT": str(at),
+        "FAULT_ERRNO": str(error),
+        **more,
+    }
 
 
 class Faults(unittest.TestCase):
@@ -87,9 +232,15 @@ class Faults(unittest.TestCase):
         self.counted = {}  # by arguments
 
     def swirl(self, *arguments, **environment):
-        return subprocess.run([SWIRL, *arguments], cwd=self.work, capture_output=True, text=True,
-                              timeout=HANG, stdin=subprocess.DEVNULL,
-                              env={**os.environ, "NO_COLOR": "1", **environment})
+        return subprocess.run(
+            [SWIRL, *arguments],
+            cwd=self.work,
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+            stdin=subprocess.DEVNULL,
+            env={**os.environ, "NO_COLOR": "1", **environment},
+        )
 
     def empty_work_folder(self):
         shutil.rmtree(self.work, ignore_errors=True)
@@ -100,7 +251,9 @@ class Faults(unittest.TestCase):
         if (known := self.counted.get(tuple(arguments))) is None:
             self.empty_work_folder()
             count = os.path.join(self.folder, "count")
-            done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_COUNT=count, **setting("new", 0))
+            done = self.swirl(
+                *arguments, FAULT_UNDER=self.folder, FAULT_COUNT=count, **setting("new", 0)
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
             with open(count) as opened:
                 known = self.counted[tuple(arguments)] = dict(line.split() for line in opened)
@@ -112,12 +265,17 @@ class Faults(unittest.TestCase):
             return numbers
         return sorted(self.choose.sample(numbers, size))
 
-    # --- expected results --------------------------------------------------------------------------
+    # --- expected results
+    # --------------------------------------------------------------------------
 
     def absolute(self, arguments):
         """The arguments with absolute file names, in the folder that the shim watches."""
-        return [os.path.join(self.work, a) if a in ("t.h5", "e.h5", "r.json", "s") or a.startswith("o.")
-                else a.replace("IN", self.folder) for a in arguments]
+        return [
+            os.path.join(self.work, a)
+            if a in ("t.h5", "e.h5", "r.json", "s") or a.startswith("o.")
+            else a.replace("IN", self.folder)
+            for a in arguments
+        ]
 
     def result(self):
         with open(os.path.join(self.work, "r.json")) as opened:
@@ -164,22 +322,32 @@ class Faults(unittest.TestCase):
     def assert_error_reported(self, done, where):
         """The process did not crash and reported an error, perhaps after warnings."""
         self.assertIn(done.returncode, (1, 2), f"{where}: {done.stderr}")
-        errors = [line for line in done.stderr.splitlines(keepends=True)
-                if not line.startswith(("warning: ", "hint: "))]
+        errors = [
+            line
+            for line in done.stderr.splitlines(keepends=True)
+            if not line.startswith(("warning: ", "hint: "))
+        ]
         self.assertTrue("".join(errors).startswith("error: "), f"{where}: {done.stderr}")
 
-    def fail_each(self, arguments, assert_correct, most, assert_harmless=lambda where: None,
-                  kinds=CALLS):
+    def fail_each(
+        self, arguments, assert_correct, most, assert_harmless=lambda where: None, kinds=CALLS
+    ):
         for call in kinds:
             calls, reported, right = self.count(call, arguments), 0, 0
             for error, ever in ((errno.ENOSPC, "0"), (errno.EIO, "1"), (errno.EIO, "0"))[
-                    :3 if EVERY else 2]:
+                : 3 if EVERY else 2
+            ]:
                 for k in self.sample(range(1, calls + 1), most):
                     where = f"{call} {k} of {calls}, {errno.errorcode[error]}, always: {ever}"
                     with self.subTest(where):
                         self.empty_work_folder()
-                        done = self.swirl(*arguments, FAULT_UNDER=self.folder, FAULT_EVER=ever,
-                                          FAULT_LOSE="1", **setting(call, k, error))
+                        done = self.swirl(
+                            *arguments,
+                            FAULT_UNDER=self.folder,
+                            FAULT_EVER=ever,
+                            FAULT_LOSE="1",
+                            **setting(call, k, error),
+                        )
                         if done.returncode == 0:
                             assert_correct(where)
                             right += 1
@@ -187,14 +355,18 @@ class Faults(unittest.TestCase):
                         self.assert_error_reported(done, where)
                         assert_harmless(where)
                         reported += 1
-            report(f"{arguments[0]}, {call} fails: {calls} calls, {reported + right} tried, "
-                   f"{reported} reported, {right} correct")
+            report(
+                f"{arguments[0]}, {call} fails: {calls} calls, {reported + right} tried, "
+                f"{reported} reported, {right} correct"
+            )
 
     def fail_memory(self, call, parse_only_call, assert_correct, most):
         calls, reported, right, unreported = self.count("new", call), 0, 0, 0
         while_parsing = self.count("new", parse_only_call)
-        for k in [*self.sample(range(1, while_parsing), most // 3),
-                  *self.sample(range(while_parsing, calls + 1), most)]:
+        for k in [
+            *self.sample(range(1, while_parsing), most // 3),
+            *self.sample(range(while_parsing, calls + 1), most),
+        ]:
             where = f"new {k} of {calls}"
             with self.subTest(where):
                 self.empty_work_folder()
@@ -207,8 +379,11 @@ class Faults(unittest.TestCase):
                 else:
                     self.assert_error_reported(done, where)
                     reported += 1
-        report(f"{call[0]}, new fails: {calls} calls, {reported + right + unreported} tried, {reported} "
-               f"reported, {right} correct, {unreported} before main()")
+        report(
+            f"{call[0]}, new fails: {calls} calls, {reported + right + unreported} tried, "
+            f"{reported} "
+            f"reported, {right} correct, {unreported} before main()"
+        )
 
     def files(self):
         """The content of all published files in the work folder."""
@@ -217,7 +392,9 @@ class Faults(unittest.TestCase):
             for name in names:
                 if not name.endswith((".partial", ".journal")):
                     with open(os.path.join(folder, name), "rb") as opened:
-                        found[os.path.relpath(os.path.join(folder, name), self.work)] = opened.read()
+                        found[
+                            os.path.relpath(os.path.join(folder, name), self.work)
+                        ] = opened.read()
         return found
 
     def output(self, call):
@@ -230,12 +407,16 @@ class Faults(unittest.TestCase):
         return call, self.files()
 
     def fail_output(self, call, most, kinds=CALLS):
-        """System calls fail one by one: an error is reported, and no published file has wrong content."""
+        """System calls fail one by one: an error is reported, and no published file has wrong
+        content."""
         call, wanted = self.output(call)
 
         def assert_whole(where):
-            self.assertEqual({name: bytes == wanted.get(name) for name, bytes in self.files().items()},
-                             {name: True for name in wanted}, where)
+            self.assertEqual(
+                {name: bytes == wanted.get(name) for name, bytes in self.files().items()},
+                {name: True for name in wanted},
+                where,
+            )
 
         def assert_nothing_else(where):
             for name, found in self.files().items():
@@ -248,14 +429,19 @@ class Faults(unittest.TestCase):
 
         def assert_clean(where):
             self.assertEqual(self.files(), wanted, where)
-            left = [name for _, _, names in os.walk(self.work) for name in names
-                    if name.endswith((".partial", ".journal"))]
+            left = [
+                name
+                for _, _, names in os.walk(self.work)
+                for name in names
+                if name.endswith((".partial", ".journal"))
+            ]
             self.assertEqual(left, [], where)
 
         # Commands that refuse to overwrite are not repeated if the output is complete.
         self.kill_each(call, call, assert_clean, most, lambda: self.files() == wanted)
 
-    # --- the tests ---------------------------------------------------------------------------------
+    # --- the tests
+    # ---------------------------------------------------------------------------------
 
     def test_failing_calls_in_a_run_are_reported_or_harmless(self):
         self.undisturbed()
@@ -271,8 +457,18 @@ class Faults(unittest.TestCase):
 
     def record_one(self):
         self.empty_work_folder()
-        done = self.swirl("run", "--discs", "8", "--events", "300", "--frames", "4", "--quiet",
-                          "--trajectory", os.path.join(self.folder, "in.h5"))
+        done = self.swirl(
+            "run",
+            "--discs",
+            "8",
+            "--events",
+            "300",
+            "--frames",
+            "4",
+            "--quiet",
+            "--trajectory",
+            os.path.join(self.folder, "in.h5"),
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def video_one(self):
@@ -283,7 +479,8 @@ class Faults(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def replace_output(self, old, new, most):
-        """Killed while it replaces files that belong together: old and new files are never mixed."""
+        """Killed while it replaces files that belong together: old and new files are never
+        mixed."""
         _, before = self.output(old)
         call, after = self.output([*new, "--overwrite"])
         self.assertEqual(set(before), set(after))
@@ -295,8 +492,10 @@ class Faults(unittest.TestCase):
                     opened.write(content)
             self.swirl(*call, FAULT_UNDER=self.folder, **setting("change", k))
             found = self.files()
-            mixed = [[name for name, content in found.items() if content != of[name]]
-                     for of in (before, after)]
+            mixed = [
+                [name for name, content in found.items() if content != of[name]]
+                for of in (before, after)
+            ]
             self.assertIn([], mixed, f"{new[0]} killed before change {k} of {calls}")
             done = self.swirl(*call)
             self.assertEqual((done.returncode, self.files()), (0, after), done.stderr)
@@ -318,8 +517,8 @@ class Faults(unittest.TestCase):
             self.kill_output(call, 2)
 
     def test_failing_calls_while_a_video_is_made_or_tracked(self):
-        # Each call decodes or encodes a video. The sample has the kinds of calls that change files; the
-        # reading ones are those of the other commands.
+        # Each call decodes or encodes a video. The sample has the kinds of calls that change files;
+        # the reading ones are those of the other commands.
         self.video_one()
         for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[:2]:
             self.fail_output(call, 1, CALLS if EVERY else ("pwrite", "rename"))
@@ -333,12 +532,23 @@ class Faults(unittest.TestCase):
         self.record_one()
         with open(os.path.join(self.folder, "points.csv"), "w", encoding="utf-8") as file:
             file.write("N,turns,circles\n8,3,10\n12,-2,10\n")
-        done = self.swirl("sweep", "--discs", "4:6", "--seeds", "2", "--events", "300", "--quiet", "--out",
-                          os.path.join(self.folder, "sweep"))
+        done = self.swirl(
+            "sweep",
+            "--discs",
+            "4:6",
+            "--seeds",
+            "2",
+            "--events",
+            "300",
+            "--quiet",
+            "--out",
+            os.path.join(self.folder, "sweep"),
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
 
     def kill_and_repeat(self, call, most):
-        """The repeated call, with --overwrite if its error asks for that, leaves the files of one undisturbed call."""
+        """The repeated call, with --overwrite if its error asks for that, leaves the files of one
+        undisturbed call."""
         call, _ = self.output(call)
         wanted = files_of(self.work)
         self.assertTrue(wanted, call)
@@ -368,7 +578,9 @@ class Faults(unittest.TestCase):
         self.empty_work_folder()
         commands = self.swirl("--help").stdout.split("Subcommands:")[1].split("Examples:")[0]
         killed = {call[0] for call in [RUN, SWEEP, *OUTPUTS, *VIDEO_CALLS, *FURTHER, *LONGER]}
-        self.assertEqual(set(re.findall(r"^  ([a-z-]+) ", commands, re.M)), killed | set(WITHOUT_KILLS))
+        self.assertEqual(
+            set(re.findall(r"^  ([a-z-]+) ", commands, re.M)), killed | set(WITHOUT_KILLS)
+        )
 
     def test_failing_calls_in_a_sweep_are_reported_or_harmless(self):
         self.undisturbed_sweep()
@@ -400,14 +612,19 @@ class Faults(unittest.TestCase):
     def test_a_killed_sweep_continues_to_the_same_result(self):
         def assert_clean(where):
             self.assert_correct_sweep(where)
-            self.assertEqual(glob.glob(os.path.join(self.work, "s/**/*.partial"), recursive=True)
-                             + glob.glob(os.path.join(self.work, "s/checkpoints/*")), [], where)
+            self.assertEqual(
+                glob.glob(os.path.join(self.work, "s/**/*.partial"), recursive=True)
+                + glob.glob(os.path.join(self.work, "s/checkpoints/*")),
+                [],
+                where,
+            )
 
         self.undisturbed_sweep()
         self.kill_each(self.sweep_call, self.sweep_call, assert_clean, 5)
 
     def cut_power(self, call, again, assert_correct, few, max_rejected):
-        """Cuts the power at random times and calls the command again: it resumes, or reports an error."""
+        """Cuts the power at random times and calls the command again: it resumes, or reports an
+        error."""
         self.empty_work_folder()
         record = os.path.join(self.folder, "record")
         done = self.swirl(*call, FAULT_UNDER=self.work, FAULT_RECORD=record, **setting("none", 0))
@@ -425,21 +642,35 @@ class Faults(unittest.TestCase):
                 rejected += 1
                 continue
             assert_correct(where)
-        report(f"{call[0]}, power cut: {cuts} tried, {cuts - rejected} resumed, {rejected} rejected")
+        report(
+            f"{call[0]}, power cut: {cuts} tried, {cuts - rejected} resumed, {rejected} rejected"
+        )
         self.assertLess(rejected, max_rejected(cuts))
 
     def test_after_a_power_cut_the_run_resumes_to_the_same_result_or_is_rejected(self):
         self.undisturbed()
-        self.cut_power(self.run_call, [*self.run_call, "--resume"], self.assert_correct, 10,
-                       lambda cuts: max(2, cuts / 10))
+        self.cut_power(
+            self.run_call,
+            [*self.run_call, "--resume"],
+            self.assert_correct,
+            10,
+            lambda cuts: max(2, cuts / 10),
+        )
 
     def test_after_a_power_cut_the_sweep_continues_to_the_same_result_or_is_rejected(self):
         self.undisturbed_sweep()
-        self.cut_power(self.sweep_call, self.sweep_call, self.assert_correct_sweep, 5,
-                       lambda cuts: max(2, cuts / 10))
+        self.cut_power(
+            self.sweep_call,
+            self.sweep_call,
+            self.assert_correct_sweep,
+            5,
+            lambda cuts: max(2, cuts / 10),
+        )
 
 
-# --- the content of a disk after a power cut --------------------------------------------------------
+# --- the content of a disk after a power cut
+# --------------------------------------------------------
+
 
 def read_record(path):
     """The entries that the shim recorded: (letter, offset or size, path, second path, bytes)."""
@@ -461,8 +692,8 @@ class Inode:
         if piece is None:
             content[:] = content[:at].ljust(at, b"\0")
         else:
-            content[len(content):] = bytes(max(0, at + len(piece) - len(content)))
-            content[at:at + len(piece)] = piece
+            content[len(content) :] = bytes(max(0, at + len(piece) - len(content)))
+            content[at : at + len(piece)] = piece
 
     def sync(self):
         for change in self.pending:
@@ -506,7 +737,7 @@ class Disk:
             self.change_name((what, one, two, None))
         elif what == "w":
             for begin in range(0, len(content), PAGE):
-                self.names[one].pending.append((a + begin, content[begin:begin + PAGE]))
+                self.names[one].pending.append((a + begin, content[begin : begin + PAGE]))
         elif what == "t":
             self.names[one].pending.append((a, None))
         elif what == "S":  # the whole file system
@@ -525,11 +756,12 @@ class Disk:
 
     def cut(self, choose):
         """Some of the last changes of names are lost, and any of the unsynced pages."""
-        for change in self.changes[:choose.randint(0, len(self.changes))]:
+        for change in self.changes[: choose.randint(0, len(self.changes))]:
             self.rename(self.durable_names, change)
         share = choose.choice((0.0, 0.3, 0.7, 1.0))
-        self.content = {name: inode.after_the_cut(choose, share)
-                        for name, inode in self.durable_names.items()}
+        self.content = {
+            name: inode.after_the_cut(choose, share) for name, inode in self.durable_names.items()
+        }
 
     def write(self, folder):
         for name, content in self.content.items():

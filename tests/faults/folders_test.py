@@ -1,13 +1,16 @@
-"""Any few files of a folder are damaged: what the program then advises makes every file as in the undisturbed folder.
+"""Any few files of a folder are damaged: what the program then advises makes every file as in the
+undisturbed folder.
 
-Up to three files of a folder that can be continued are removed, cut off, or exchanged with a file of the same kind. The
-same calls are made again; if they end with an error, its hint says which file to remove. In a second test, a call that
-continues such a folder gets an error from the system when it opens, reads or examines a file: it ends with an error, or
-it makes the right files, and the next call makes them in any case. In a third test, the process that makes a folder is
-killed before it changes a file: the repeated call makes the right files, and leaves no other.
+Up to three files of a folder that can be continued are removed, cut off, or exchanged with a file
+of the same kind. The same calls are made again; if they end with an error, its hint says which file
+to remove. In a second test, a call that continues such a folder gets an error from the system when
+it opens, reads or examines a file: it ends with an error, or it makes the right files, and the next
+call makes them in any case. In a third test, the process that makes a folder is killed before it
+changes a file: the repeated call makes the right files, and leaves no other.
 
     folders_test.py          40 damaged folders, 40 faults and 20 kills, for the default suite
-    folders_test.py --all    500 damaged folders with a new seed each day, every fault and every kill
+    folders_test.py --all    500 damaged folders with a new seed each day, every fault and every
+                             kill
 """
 
 import errno
@@ -23,7 +26,14 @@ import time
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "cli"))
-from folder_kinds import KINDS, STOPPED, continuing, files_of, is_superseded, write_inputs  # noqa: E402
+from folder_kinds import (
+    KINDS,
+    STOPPED,
+    continuing,
+    files_of,
+    is_superseded,
+    write_inputs,
+)  # noqa: E402
 from program import HANG, SOURCE, SWIRL, folder_in_memory  # noqa: E402
 
 SHIM = os.environ["SWIRL_FAULTS"]
@@ -67,17 +77,33 @@ def run(call, folder, inputs, **environment):
         words = ["/usr/bin/python3", "-B", "-c", PAPER, os.path.join(SOURCE, "paper"), folder]
     else:
         words = [SWIRL, *call, *OPTIONS.get(call[0], ["--threads", "1", "--quiet"])]
-    return subprocess.run(words, capture_output=True, text=True, timeout=HANG, stdin=subprocess.DEVNULL,
-                          env={**os.environ, "NO_COLOR": "1", **environment})
+    return subprocess.run(
+        words,
+        capture_output=True,
+        text=True,
+        timeout=HANG,
+        stdin=subprocess.DEVNULL,
+        env={**os.environ, "NO_COLOR": "1", **environment},
+    )
 
 
 def counted(call, folder, inputs):
     """An undisturbed call, and its numbers of calls of the system for each kind."""
     with tempfile.NamedTemporaryFile(mode="r", encoding="utf-8") as count:
-        done = run(call, folder, inputs, LD_PRELOAD=SHIM, FAULT_UNDER=folder, FAULT_COUNT=count.name, FAULT_CALL="none",
-                   FAULT_AT="0")
+        done = run(
+            call,
+            folder,
+            inputs,
+            LD_PRELOAD=SHIM,
+            FAULT_UNDER=folder,
+            FAULT_COUNT=count.name,
+            FAULT_CALL="none",
+            FAULT_AT="0",
+        )
         assert done.returncode == 0, (call, done.stderr)
-        return done, {name: int(number) for name, number in map(str.split, count.read().splitlines())}
+        return done, {
+            name: int(number) for name, number in map(str.split, count.read().splitlines())
+        }
 
 
 class Folders(unittest.TestCase):
@@ -102,8 +128,16 @@ class Folders(unittest.TestCase):
             if kind in STOPPED:
                 shutil.rmtree(cls.copy)
                 os.mkdir(cls.copy)
-                run(calls[0], cls.copy, cls.inputs, LD_PRELOAD=SHIM, FAULT_UNDER=cls.copy, FAULT_CALL="write",
-                    FAULT_AT=str(STOPPED[kind]), FAULT_SIGNAL=str(int(signal.SIGTERM)))
+                run(
+                    calls[0],
+                    cls.copy,
+                    cls.inputs,
+                    LD_PRELOAD=SHIM,
+                    FAULT_UNDER=cls.copy,
+                    FAULT_CALL="write",
+                    FAULT_AT=str(STOPPED[kind]),
+                    FAULT_SIGNAL=str(int(signal.SIGTERM)),
+                )
                 left = files_of(cls.copy)
                 assert any(name.endswith(".checkpoint") for name in left), left.keys()
             cls.whole[kind] = os.path.join(cls.top, kind)
@@ -117,7 +151,8 @@ class Folders(unittest.TestCase):
         return shutil.copytree(self.whole[kind], self.copy)
 
     def repaired(self, kind, folder):
-        """Makes the calls until all end without an error; removes the file that an error's hint names."""
+        """Makes the calls until all end without an error; removes the file that an error's hint
+        names."""
         calls = list(continuing(kind, folder))
         for _ in range(MOST_CALLS):
             done = run(calls[0], folder, self.inputs)
@@ -144,9 +179,13 @@ class Folders(unittest.TestCase):
     def damage(self, folder, name):
         """Removes, cuts or exchanges one file. Returns the words for the message."""
         path = os.path.join(folder, name)
-        others = sorted(other for other in os.listdir(os.path.dirname(path))
-                        if other != os.path.basename(path) and other.endswith(os.path.splitext(name)[1])
-                        and os.path.isfile(os.path.join(os.path.dirname(path), other)))
+        others = sorted(
+            other
+            for other in os.listdir(os.path.dirname(path))
+            if other != os.path.basename(path)
+            and other.endswith(os.path.splitext(name)[1])
+            and os.path.isfile(os.path.join(os.path.dirname(path), other))
+        )
         what = self.choose.choice(("remove", "cut", "exchange") if others else ("remove", "cut"))
         if what == "remove":
             os.remove(path)
@@ -169,11 +208,16 @@ class Folders(unittest.TestCase):
             kind = kinds[number % len(kinds)]
             with self.subTest(number=number, kind=kind, seed=SEED):
                 folder = self.copy_of(kind)
-                names = sorted(name for name, content in files_of(folder).items()
-                               if content and not is_superseded(kind, name))
+                names = sorted(
+                    name
+                    for name, content in files_of(folder).items()
+                    if content and not is_superseded(kind, name)
+                )
                 harm = []
                 for name in self.choose.sample(names, self.choose.randint(1, 3)):
-                    if os.path.exists(os.path.join(folder, name)) and os.path.getsize(os.path.join(folder, name)):
+                    if os.path.exists(os.path.join(folder, name)) and os.path.getsize(
+                        os.path.join(folder, name)
+                    ):
                         harm.append(self.damage(folder, name))
                 with self.subTest(harm=harm):
                     self.repaired(kind, folder)
@@ -185,7 +229,9 @@ class Folders(unittest.TestCase):
         for name, content in found.items():
             if name.endswith(".h5") and content != self.expected[kind][name]:
                 # A commit at another moment gives other bytes with the same frames.
-                done = subprocess.run([SWIRL, "verify", os.path.join(folder, name)], capture_output=True, text=True)
+                done = subprocess.run(
+                    [SWIRL, "verify", os.path.join(folder, name)], capture_output=True, text=True
+                )
                 self.assertIn("bitwise identical", done.stdout, f"{name}: {done.stderr}")
                 continue
             self.assertEqual(content, self.expected[kind][name], name)
@@ -196,21 +242,34 @@ class Folders(unittest.TestCase):
             folder = self.copy_of(kind)
             for number, call in enumerate(continuing(kind, folder)):
                 _, counts = counted(call, folder, self.inputs)
-                cases += [(kind, number, kind_of_call, at) for kind_of_call in ("open", "read", "stat")
-                          for at in range(1, counts[kind_of_call] + 1)]
+                cases += [
+                    (kind, number, kind_of_call, at)
+                    for kind_of_call in ("open", "read", "stat")
+                    for at in range(1, counts[kind_of_call] + 1)
+                ]
         chosen = cases if len(cases) <= FAULTS else self.choose.sample(cases, FAULTS)
         for kind, number, call, at in chosen:
             error = self.choose.choice(ERRORS)
             folder = self.copy_of(kind)
             faulted = continuing(kind, folder)[number]
-            with self.subTest(kind=kind, call=faulted[:2], fails=f"{call} {at}", error=errno.errorcode[error]):
+            with self.subTest(
+                kind=kind, call=faulted[:2], fails=f"{call} {at}", error=errno.errorcode[error]
+            ):
                 for earlier in continuing(kind, folder)[:number]:
                     run(earlier, folder, self.inputs)  # which complete the folder of a stopped call
-                done = run(faulted, folder, self.inputs, LD_PRELOAD=SHIM, FAULT_UNDER=folder,
-                           FAULT_CALL=call, FAULT_AT=str(at), FAULT_ERRNO=str(error))
+                done = run(
+                    faulted,
+                    folder,
+                    self.inputs,
+                    LD_PRELOAD=SHIM,
+                    FAULT_UNDER=folder,
+                    FAULT_CALL=call,
+                    FAULT_AT=str(at),
+                    FAULT_ERRNO=str(error),
+                )
                 if done.returncode == 0:
                     # A folder of a stopped call has no files of the later calls.
-                    for later in continuing(kind, folder)[number + 1:]:
+                    for later in continuing(kind, folder)[number + 1 :]:
                         self.assertEqual(run(later, folder, self.inputs).returncode, 0)
                     self.assert_undisturbed(kind, folder)
                 else:
@@ -219,9 +278,15 @@ class Folders(unittest.TestCase):
                 self.assert_undisturbed(kind, folder)
 
     def test_a_killed_call_leaves_nothing_after_its_repetition(self):
-        # A worker of the paper's pool that is killed is waited for: paper_test.py has its temporary files.
-        cases = [(kind, number, at) for kind, counts in self.changes.items() if kind != "paper"
-                 for number, count in enumerate(counts) for at in range(1, count + 1)]
+        # A worker of the paper's pool that is killed is waited for: paper_test.py has its temporary
+        # files.
+        cases = [
+            (kind, number, at)
+            for kind, counts in self.changes.items()
+            if kind != "paper"
+            for number, count in enumerate(counts)
+            for at in range(1, count + 1)
+        ]
         for kind, number, at in cases if len(cases) <= KILLS else self.choose.sample(cases, KILLS):
             calls = KINDS[kind]
             with self.subTest(kind=kind, call=calls[number][:2], before_change=at):
@@ -229,8 +294,16 @@ class Folders(unittest.TestCase):
                 os.mkdir(self.copy)
                 for call in calls[:number]:
                     run(call, self.copy, self.inputs)
-                run(calls[number], self.copy, self.inputs, LD_PRELOAD=SHIM, FAULT_UNDER=self.copy, FAULT_CALL="change",
-                    FAULT_AT=str(at), FAULT_ERRNO="0")
+                run(
+                    calls[number],
+                    self.copy,
+                    self.inputs,
+                    LD_PRELOAD=SHIM,
+                    FAULT_UNDER=self.copy,
+                    FAULT_CALL="change",
+                    FAULT_AT=str(at),
+                    FAULT_ERRNO="0",
+                )
                 for call in calls[number:]:
                     done = run(call, self.copy, self.inputs)
                     self.assertEqual(done.returncode, 0, done.stderr)

@@ -1,8 +1,8 @@
 """Opens a file with a program that is not ours and compares it with the frames of the test.
 
 independent_readers.py READER FILE DISCS FRAMES discs|spheres; exit code 77 where the reader is not
-installed. The numbers are those of known_frame() and known_frame_of_spheres() in scratch.hpp, written
-again, independently.
+installed. The numbers are those of known_frame() and known_frame_of_spheres() in scratch.hpp,
+written again, independently.
 """
 
 import importlib
@@ -11,9 +11,14 @@ import sys
 READER, FILE, DISCS, FRAMES = sys.argv[1], sys.argv[2], int(sys.argv[3]), int(sys.argv[4])
 SPHERES = sys.argv[5] == "spheres"
 PACKAGE = {
-    "h5py": "python3-h5py", "MDAnalysis": "python3-mdanalysis", "xarray": "python3-xarray",
-    "netCDF4": "python3-netcdf4", "pandas": "python3-pandas", "gsd": "python3-gsd",
-    "vtkmodules": "python3-vtk9", "numpy": "python3-numpy",
+    "h5py": "python3-h5py",
+    "MDAnalysis": "python3-mdanalysis",
+    "xarray": "python3-xarray",
+    "netCDF4": "python3-netcdf4",
+    "pandas": "python3-pandas",
+    "gsd": "python3-gsd",
+    "vtkmodules": "python3-vtk9",
+    "numpy": "python3-numpy",
 }
 
 
@@ -84,6 +89,7 @@ def close(found, wanted, what):
 def read_h5py():
     need("h5py")
     import h5py
+
     with h5py.File(FILE, "r") as f:
         same(f["h5md"].attrs["version"], [1, 1], "H5MD version")
         assert f["h5md/creator"].attrs["name"] == b"swirl"
@@ -126,6 +132,7 @@ def read_h5py():
 def read_mdanalysis():
     need("MDAnalysis")
     import MDAnalysis
+
     universe = MDAnalysis.Universe.empty(DISCS, trajectory=False)
     universe.load_new(FILE, format="H5MD", convert_units=False)
     assert len(universe.trajectory) == FRAMES
@@ -143,18 +150,22 @@ def read_mdanalysis():
 def read_xarray():
     need("xarray", "netCDF4")
     import xarray
-    with xarray.open_dataset(FILE, group="/particles/trajectory/position", engine="netcdf4",
-                             decode_times=False) as d:
+
+    with xarray.open_dataset(
+        FILE, group="/particles/trajectory/position", engine="netcdf4", decode_times=False
+    ) as d:
         assert d["value"].dims == ("time", "particle", "xyz"), d["value"].dims
         same(d["time"], [time(k) for k in range(FRAMES)], "time")
         for k in range(FRAMES):
             same(d["value"][k, :, 0], expected(k)[0], "x")
-    with xarray.open_dataset(FILE, group="/particles/trajectory/angular_velocity",
-                             engine="netcdf4", decode_times=False) as d:
+    with xarray.open_dataset(
+        FILE, group="/particles/trajectory/angular_velocity", engine="netcdf4", decode_times=False
+    ) as d:
         assert d["value"].dims == ("time", "particle"), d["value"].dims
         same(d["value"][FRAMES - 1], expected(FRAMES - 1)[5], "spin")
-    with xarray.open_dataset(FILE, group="/observables/container_x", engine="netcdf4",
-                             decode_times=False) as d:
+    with xarray.open_dataset(
+        FILE, group="/observables/container_x", engine="netcdf4", decode_times=False
+    ) as d:
         assert d["value"].dims == ("time",), d["value"].dims
         same(d["value"], [0.1 * k for k in range(FRAMES)], "container_x")
 
@@ -162,6 +173,7 @@ def read_xarray():
 def read_lammps():
     need("MDAnalysis")
     import MDAnalysis
+
     universe = MDAnalysis.Universe(FILE, format="LAMMPSDUMP", topology_format="LAMMPSDUMP")
     assert len(universe.trajectory) == FRAMES
     assert len(universe.atoms) == DISCS
@@ -181,8 +193,14 @@ def read_lammps():
             assert len(names) == table.shape[1] == (17 if SPHERES else 11), names
             column = dict(zip(names, table.T))
             _, _, vx, vy, _, spin = expected(k)
-            for name, values in {"id": 1 + np.arange(DISCS), "vx": vx, "vy": vy, "radius": SIZES,
-                                 "mass": MASSES, "omegaz": spin}.items():
+            for name, values in {
+                "id": 1 + np.arange(DISCS),
+                "vx": vx,
+                "vy": vy,
+                "radius": SIZES,
+                "mass": MASSES,
+                "omegaz": spin,
+            }.items():
                 same(column[name], values, name)
             if SPHERES:
                 for name, values in zip(("omegax", "omegay"), rolling(k)):
@@ -194,6 +212,7 @@ def read_xyz():
     # MDAnalysis reads the plain columns; the comment lists the names of the others.
     need("MDAnalysis")
     import MDAnalysis
+
     universe = MDAnalysis.Universe(FILE, format="XYZ", topology_format="XYZ")
     assert len(universe.trajectory) == FRAMES
     assert list(universe.atoms.names[:2]) == ["H", "He"]
@@ -203,9 +222,10 @@ def read_xyz():
     with open(FILE) as lines:
         assert next(lines) == f"{DISCS}\n"
         comment = next(lines)
-        assert ("Properties=species:S:1:pos:R:3:velo:R:3:omega:R:" +
-                ("3:radius:R:1:id:I:1:orientation:R:4 " if SPHERES else "1:radius:R:1:id:I:1 ")
-                ) in comment, comment
+        assert (
+            "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:"
+            + ("3:radius:R:1:id:I:1:orientation:R:4 " if SPHERES else "1:radius:R:1:id:I:1 ")
+        ) in comment, comment
         for name in ("container_x", "container_y", "container_radius"):
             assert f" {name}=" in comment, comment
         table = np.array([next(lines).split()[1:] for _ in range(DISCS)], dtype=float).T
@@ -213,11 +233,11 @@ def read_xyz():
     zero = np.zeros(DISCS)
     omega = [*rolling(0), spin] if SPHERES else [spin]
     known = [x, y, zero, vx, vy, zero, *omega, SIZES, 1 + np.arange(DISCS)]
-    same(table[:len(known)], known, "frame 0")
+    same(table[: len(known)], known, "frame 0")
     # x y z w, as OVITO reads it.
     rest = np.roll(turned(0), -1, axis=1).T if SPHERES else np.empty((0, DISCS))
     assert table.shape[0] == len(known) + len(rest)
-    almost(table[len(known):], rest, "orientation")
+    almost(table[len(known) :], rest, "orientation")
 
 
 def read_vtp():
@@ -226,6 +246,7 @@ def read_vtp():
     import xml.etree.ElementTree as tree
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
+
     parts = tree.parse(FILE).getroot().findall("Collection/DataSet")
     sets = [entry for entry in parts if entry.attrib["part"] == "0"]
     walls = [entry for entry in parts if entry.attrib["part"] == "1"]
@@ -253,8 +274,10 @@ def read_vtp():
         points = vtk_to_numpy(data.GetPoints().GetData())
         same(points[:, 0], x, "x")
         same(points[:, 1], y, "y")
-        values = {name: vtk_to_numpy(data.GetPointData().GetArray(name))
-                  for name in ["velocity", "angle", "spin", "radius", "mass", "id"]}
+        values = {
+            name: vtk_to_numpy(data.GetPointData().GetArray(name))
+            for name in ["velocity", "angle", "spin", "radius", "mass", "id"]
+        }
         same(values["velocity"][:, 1], vy, "vy")
         same(values["angle"], angle, "angle")
         same(values["spin"], spin, "spin")
@@ -271,6 +294,7 @@ def read_vtp():
 def read_csv():
     need("pandas")
     import pandas
+
     table = pandas.read_csv(FILE, float_precision="round_trip")
     assert list(table.columns) == ["frame", "particle", "x", "y"]
     assert len(table) == DISCS * FRAMES
@@ -284,6 +308,7 @@ def read_csv():
 def read_table():
     need("pandas")
     import pandas
+
     table = pandas.read_csv(FILE, float_precision="round_trip")
     assert len(table) == DISCS * FRAMES
     # The units are those of the first disc, and the speed of the container in the first frame.
@@ -293,10 +318,17 @@ def read_table():
         same(frame["disc"], np.arange(DISCS), "disc")
         almost(frame["time (r/v)"], np.full(DISCS, time(k)) * v / r, "time")
         almost(frame["container x (r)"], np.full(DISCS, 0.1 * k) / r, "container")
-        for name, values in {"x (r)": x / r, "y (r)": y / r, "v_x (v)": vx / v, "v_y (v)": vy / v,
-                             "angle (rad)": angle, "spin (v/r)": spin * r / v, "radius (r)": SIZES / r,
-                             "mass (m)": MASSES / m,
-                             "moment of inertia (m r²)": (10.0 + np.arange(DISCS)) / (m * r ** 2)}.items():
+        for name, values in {
+            "x (r)": x / r,
+            "y (r)": y / r,
+            "v_x (v)": vx / v,
+            "v_y (v)": vy / v,
+            "angle (rad)": angle,
+            "spin (v/r)": spin * r / v,
+            "radius (r)": SIZES / r,
+            "mass (m)": MASSES / m,
+            "moment of inertia (m r²)": (10.0 + np.arange(DISCS)) / (m * r**2),
+        }.items():
             almost(frame[name], values, name)
         assert ("turned w" in table.columns) == SPHERES
         if SPHERES:
@@ -308,13 +340,15 @@ def read_table():
 def product(a, b):
     """The products of quaternions in rows."""
     aw, av, bw, bv = a[:, :1], a[:, 1:], b[:, :1], b[:, 1:]
-    return np.hstack([aw * bw - np.sum(av * bv, axis=1, keepdims=True),
-                      aw * bv + bw * av + np.cross(av, bv)])
+    return np.hstack(
+        [aw * bw - np.sum(av * bv, axis=1, keepdims=True), aw * bv + bw * av + np.cross(av, bv)]
+    )
 
 
 def read_gsd():
     need("gsd.hoomd")
     import gsd.hoomd
+
     with gsd.hoomd.open(FILE) as frames:
         assert len(frames) == FRAMES
         for k, frame in enumerate(frames):
@@ -327,8 +361,11 @@ def read_gsd():
             close(frame.particles.diameter, 2 * SIZES, "diameter")
             close(frame.particles.mass, MASSES, "mass")
             inertia = 10.0 + np.arange(DISCS)
-            close(frame.particles.moment_inertia,
-                  np.stack([inertia * SPHERES, inertia * SPHERES, inertia], axis=1), "inertia")
+            close(
+                frame.particles.moment_inertia,
+                np.stack([inertia * SPHERES, inertia * SPHERES, inertia], axis=1),
+                "inertia",
+            )
             q = frame.particles.orientation
             if SPHERES:
                 close(q, turned(k), "orientation")

@@ -1,49 +1,126 @@
-"""Layers of src/swirl, and the folders of track/: each includes only the layers listed before it (docs/explanation/architecture.md).
+"""Layers of src/swirl, and the folders of track/: each includes only the layers listed before it
+(docs/explanation/architecture.md).
 
-The test reads every #include. It also checks the rules of the engine's layers: standard library only,
-no input or output, no clock, no threads, no exceptions.
+The test reads every #include. It also checks the rules of the engine's layers: standard library
+only, no input or output, no clock, no threads, no exceptions.
 """
 
 import os
 import re
 import unittest
 
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
 
 # The lowest layer first.
-ENGINE_PROGRAM = ("math", "physics", "engine", "statistics", "measure", "io", "run", "render", "study",
-                  "cli")
+ENGINE_PROGRAM = (
+    "math",
+    "physics",
+    "engine",
+    "statistics",
+    "measure",
+    "io",
+    "run",
+    "render",
+    "study",
+    "cli",
+)
 TRACK = ("track/tables", "track/video", "track/synthetic", "track/experiment", "track/cli")
-LAYERS = (*ENGINE_PROGRAM[:ENGINE_PROGRAM.index("cli")], *TRACK, "cli")
+LAYERS = (*ENGINE_PROGRAM[: ENGINE_PROGRAM.index("cli")], *TRACK, "cli")
 # Layers that use the standard library only, and compile for WebAssembly.
 ENGINE = ("math", "physics", "engine", "statistics", "measure")
-# Layers that do not include each other although one is listed before the other: a measurement cannot
-# know where its snapshots come from, statistics know no physics, and the program builds without the
-# camera support.
-FORBIDDEN_PAIRS = {("measure", "engine"), ("statistics", "engine"), ("statistics", "physics"),
-                   ("study", "render"), ("track/synthetic", "track/video"),
-                   ("track/experiment", "track/video"), ("track/experiment", "track/synthetic"),
-                   # The command line reads tables of tracks. It calls the rest of track/ through the
-                   # subcommands that register themselves there.
-                   *(("cli", part) for part in TRACK if part != "track/tables")}
+# Layers that do not include each other although one is listed before the other: a measurement
+# cannot know where its snapshots come from, statistics know no physics, and the program builds
+# without the camera support.
+FORBIDDEN_PAIRS = {
+    ("measure", "engine"),
+    ("statistics", "engine"),
+    ("statistics", "physics"),
+    ("study", "render"),
+    ("track/synthetic", "track/video"),
+    ("track/experiment", "track/video"),
+    ("track/experiment", "track/synthetic"),
+    # The command line reads tables of tracks. It calls the rest of track/ through the
+    # subcommands that register themselves there.
+    *(("cli", part) for part in TRACK if part != "track/tables"),
+}
 
 FORBIDDEN_HEADERS = {
-    "iostream", "fstream", "sstream", "cstdio", "stdio.h", "filesystem", "chrono", "ctime", "time.h",
-    "thread", "mutex", "atomic", "future", "condition_variable", "random", "unistd.h", "print",
-    "unordered_map", "unordered_set", "iomanip", "ostream", "istream", "format",
+    "iostream",
+    "fstream",
+    "sstream",
+    "cstdio",
+    "stdio.h",
+    "filesystem",
+    "chrono",
+    "ctime",
+    "time.h",
+    "thread",
+    "mutex",
+    "atomic",
+    "future",
+    "condition_variable",
+    "random",
+    "unistd.h",
+    "print",
+    "unordered_map",
+    "unordered_set",
+    "iomanip",
+    "ostream",
+    "istream",
+    "format",
 }
 FORBIDDEN_WORDS = {"virtual", "throw", "try", "catch", "thread_local", "getenv", "rand"}
 
 # docs/explanation/architecture.md: what the engine may ask of the system.
-EXCEPTIONS = {("src/swirl/engine/aligned_memory.hpp", "sys/mman.h"),
-              ("src/swirl/engine/validate.cpp", "cstdio")}
+EXCEPTIONS = {
+    ("src/swirl/engine/aligned_memory.hpp", "sys/mman.h"),
+    ("src/swirl/engine/validate.cpp", "cstdio"),
+}
 STANDARD = {
-    "algorithm", "array", "bit", "bitset", "cfloat", "charconv", "climits", "cmath", "compare",
-    "complex", "concepts", "cstddef", "cstdint", "cstdlib", "cstring", "deque", "functional",
-    "initializer_list", "iterator", "limits", "list", "map", "memory", "new", "numbers", "numeric",
-    "optional", "queue", "ranges", "set", "span", "stack", "string", "string_view", "tuple",
-    "type_traits", "utility", "variant", "vector", "version", "immintrin.h", "cpuid.h",
+    "algorithm",
+    "array",
+    "bit",
+    "bitset",
+    "cfloat",
+    "charconv",
+    "climits",
+    "cmath",
+    "compare",
+    "complex",
+    "concepts",
+    "cstddef",
+    "cstdint",
+    "cstdlib",
+    "cstring",
+    "deque",
+    "functional",
+    "initializer_list",
+    "iterator",
+    "limits",
+    "list",
+    "map",
+    "memory",
+    "new",
+    "numbers",
+    "numeric",
+    "optional",
+    "queue",
+    "ranges",
+    "set",
+    "span",
+    "stack",
+    "string",
+    "string_view",
+    "tuple",
+    "type_traits",
+    "utility",
+    "variant",
+    "vector",
+    "version",
+    "immintrin.h",
+    "cpuid.h",
 }
 
 
@@ -81,8 +158,10 @@ def text_of(file):
 
 def includes(file):
     """(what, quoted?) of every #include."""
-    return [(m.group(2), m.group(1) == '"')
-            for m in re.finditer(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', text_of(file), re.M)]
+    return [
+        (m.group(2), m.group(1) == '"')
+        for m in re.finditer(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', text_of(file), re.M)
+    ]
 
 
 def code_of(file):
@@ -92,10 +171,16 @@ def code_of(file):
     return re.sub(r"//[^\n]*", " ", text)
 
 
-# Layers of which the compiler gets several files at once (and the command line, whose files write one
-# function for each kind of call).
-COMPILED_AT_ONCE = ("measure", "io", "run", "render", "study",
-                    *(part for part in TRACK if part != "track/cli"))
+# Layers of which the compiler gets several files at once (and the command line, whose files write
+# one function for each kind of call).
+COMPILED_AT_ONCE = (
+    "measure",
+    "io",
+    "run",
+    "render",
+    "study",
+    *(part for part in TRACK if part != "track/cli"),
+)
 DEFINITIONS = (
     # A function, up to its brace; a type; a constant.
     r"^(?!return|namespace|using|\s|template|\})[\w:<>&*,\[\]. ]*?[\w>&*\]] [*&]?(\w+)\([^;{}]*?\)"
@@ -108,19 +193,24 @@ DEFINITIONS = (
 def names_of_its_own(text):
     """The names that a file defines in its unnamed namespaces."""
     code = re.sub(r'R"\((?:.|\n)*?\)"', '""', text)
-    return {name
-            for own in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", code, re.S | re.M)
-            for definition in DEFINITIONS for name in re.findall(definition, own, re.M)}
+    return {
+        name
+        for own in re.findall(r"^namespace \{\n(.*?)^\}  // namespace\n", code, re.S | re.M)
+        for definition in DEFINITIONS
+        for name in re.findall(definition, own, re.M)
+    }
 
 
 SCOPES = re.compile(
     r"[{}]|\bnamespace\s*([\w:]*)\s*\{"
     r"|\b(?:struct|class|union|enum(?:\s+class|\s+struct)?)\s+(?:alignas\([^)]*\)\s*)?([\w:]+)\s*"
-    r"(?:final\s*)?(?::[^:;{}()][^;{}]*)?\{")
+    r"(?:final\s*)?(?::[^:;{}()][^;{}]*)?\{"
+)
 
 
 def types_in(code):
-    """The qualified names of the types that a file defines, except in unnamed namespaces and functions.
+    """The qualified names of the types that a file defines, except in unnamed namespaces and
+    functions.
 
     A specialisation of a template is not a type of its own.
     """
@@ -146,46 +236,78 @@ def bindings_sources():
 
 
 def depends_on(header, file, known):
-    """Whether the file includes the header, perhaps through others. `known` are the answers so far."""
+    """Whether the file includes the header, perhaps through others. `known` are the answers so
+    far."""
     if file not in known:
         known[file] = False  # for headers that include each other
-        known[file] = any(what == header or depends_on(header, header_of(what), known)
-                          for what, quoted in includes(file) if quoted and layer_of(what))
+        known[file] = any(
+            what == header or depends_on(header, header_of(what), known)
+            for what, quoted in includes(file)
+            if quoted and layer_of(what)
+        )
     return known[file]
 
 
 class Layers(unittest.TestCase):
     def test_a_change_of_the_collision_law_compiles_the_event_loops_only(self):
-        # Each event loop takes longer to compile than a whole layer, so nothing else is to be compiled then.
+        # Each event loop takes longer to compile than a whole layer, so nothing else is to be
+        # compiled then.
         known = {}
-        compiled = {os.path.basename(file) for file in all_sources() if file.endswith(".cpp")
-                    and depends_on("swirl/physics/collision_law.hpp", file, known)}
-        self.assertEqual(compiled, {f"event_loop_{name}.cpp" for name in ("avx2", "avx512", "baseline", "partial_friction")})
+        compiled = {
+            os.path.basename(file)
+            for file in all_sources()
+            if file.endswith(".cpp") and depends_on("swirl/physics/collision_law.hpp", file, known)
+        }
+        self.assertEqual(
+            compiled,
+            {
+                f"event_loop_{name}.cpp"
+                for name in ("avx2", "avx512", "baseline", "partial_friction")
+            },
+        )
 
     def test_every_folder_of_src_is_a_layer(self):
         self.assertEqual(os.listdir(os.path.join(SOURCE, "src")), ["swirl"])
         self.assertEqual(set(os.listdir(os.path.join(SOURCE, "src", "swirl"))), set(ENGINE_PROGRAM))
-        self.assertEqual(set(os.listdir(os.path.join(SOURCE, "track"))),
-                         {part.removeprefix("track/") for part in TRACK} | {"tests"})
+        self.assertEqual(
+            set(os.listdir(os.path.join(SOURCE, "track"))),
+            {part.removeprefix("track/") for part in TRACK} | {"tests"},
+        )
         for layer in LAYERS:
             self.assertTrue(list(sources(layer)), layer)
 
     def test_slow_headers_are_included_by_one_file_each(self):
-        for header, homes in (("CLI/CLI.hpp", {"parser.cpp"}), ("toml++/toml.h", {"toml_file.cpp"})):
-            found = {os.path.basename(file) for file in all_sources()
-                     if header in [what for what, _ in includes(file)]}
+        for header, homes in (
+            ("CLI/CLI.hpp", {"parser.cpp"}),
+            ("toml++/toml.h", {"toml_file.cpp"}),
+        ):
+            found = {
+                os.path.basename(file)
+                for file in all_sources()
+                if header in [what for what, _ in includes(file)]
+            }
             self.assertEqual(found, homes, header)
-        # Headers of these libraries are most of what a file reads. Headers of swirl declare JSON only.
+        # Headers of these libraries are most of what a file reads. Headers of swirl declare JSON
+        # only.
         for file in all_sources():
             if file.endswith(".hpp") and os.path.relpath(file, SOURCE).startswith("src"):
-                self.assertFalse([what for what, _ in includes(file)
-                                  if what.startswith(("fmt/", "nlohmann/json.hpp"))], file)
+                self.assertFalse(
+                    [
+                        what
+                        for what, _ in includes(file)
+                        if what.startswith(("fmt/", "nlohmann/json.hpp"))
+                    ],
+                    file,
+                )
 
     def test_target_clones_occurs_in_one_file(self):
         # And for which compilers and sanitizers not: the thread sanitizer's programs do not even
         # begin with such functions.
-        found = {os.path.relpath(file, SOURCE) for file in all_sources()
-                 if "target_clones" in text_of(file)}
+        found = {
+            os.path.relpath(file, SOURCE)
+            for file in all_sources()
+            if "target_clones" in text_of(file)
+        }
         self.assertEqual(found, {"src/swirl/math/wide.hpp"})
 
     def test_a_layer_includes_only_layers_before_it(self):
@@ -195,19 +317,23 @@ class Layers(unittest.TestCase):
                     other = layer_of(what)
                     if other is None or (layer, other) == ("track/cli", "cli"):  # one program
                         continue
-                    self.assertIn(other, LAYERS[:rank + 1], f"{file} includes {what}")
+                    self.assertIn(other, LAYERS[: rank + 1], f"{file} includes {what}")
                     self.assertNotIn((layer, other), FORBIDDEN_PAIRS, f"{file} includes {what}")
         for file in bindings_sources():
             for what, _ in includes(file):
-                self.assertNotIn(layer_of(what), set(TRACK) - {"track/tables"}, f"{file} includes {what}")
+                self.assertNotIn(
+                    layer_of(what), set(TRACK) - {"track/tables"}, f"{file} includes {what}"
+                )
 
     def test_quoted_includes_name_a_header_of_the_project(self):
         for file in all_sources():
             for what, quoted in includes(file):
                 if quoted and what != "version.inc":
                     self.assertIsNotNone(layer_of(what), f"{file} includes {what}")
-                    self.assertTrue(os.path.exists(header_of(what)),
-                                    f"{file} includes {what}, which does not exist")
+                    self.assertTrue(
+                        os.path.exists(header_of(what)),
+                        f"{file} includes {what}, which does not exist",
+                    )
 
     def test_the_engine_uses_nothing_but_the_standard_library(self):
         for layer in ENGINE:
@@ -230,8 +356,9 @@ class Layers(unittest.TestCase):
         # could silently be called instead of the first (cmake/program.cmake).
         bindings = os.path.join(SOURCE, "bindings", "python")
         for layer, files in (
-                *((layer, sources(layer)) for layer in COMPILED_AT_ONCE),
-                ("python", [os.path.join(bindings, name) for name in sorted(os.listdir(bindings))])):
+            *((layer, sources(layer)) for layer in COMPILED_AT_ONCE),
+            ("python", [os.path.join(bindings, name) for name in sorted(os.listdir(bindings))]),
+        ):
             where = {}
             for file in files:
                 if file.endswith(".cpp"):

@@ -1,4 +1,5 @@
-"""Every picture of the documentation has a caption in words. It is the line in italics below the picture."""
+"""Every picture of the documentation has a caption in words. It is the line in italics below the
+picture."""
 
 import os
 import pathlib
@@ -16,10 +17,11 @@ LEAST = 8  # words
 
 
 def captions_of(text):
-    """[(picture, alternative text, caption)]; neighbouring pictures share a caption, which is empty if there is none."""
+    """[(picture, alternative text, caption)]; neighbouring pictures share a caption, which is empty
+    if there is none."""
     found = []
     for group in re.finditer(r"(?:^!\[[^\]]*\]\([^)]*\)\n)+", text, re.M):
-        below = re.match(r"\s*\*([^*].*?)\*(?!\*)", text[group.end():], re.S)
+        below = re.match(r"\s*\*([^*].*?)\*(?!\*)", text[group.end() :], re.S)
         caption = " ".join(below[1].split()) if below and "\n\n" not in below[0].strip() else ""
         found += [(picture, words, caption) for words, picture in PICTURE.findall(group[0])]
     return found
@@ -35,13 +37,25 @@ class Pictures(unittest.TestCase):
                     continue
                 count += 1
                 with self.subTest(page=name, picture=picture):
-                    self.assertGreaterEqual(len(caption.split()), LEAST, "a caption says what to see")
+                    self.assertGreaterEqual(
+                        len(caption.split()), LEAST, "a caption says what to see"
+                    )
                     self.assertNotEqual(caption.rstrip("."), words.rstrip("."))
         self.assertGreater(count, 30)
 
     def test_a_picture_without_a_caption_is_found(self):
-        text = "![a](b.png)\n(`command`)\n\nText *in italics*.\n\n![c](d.png)\n![e](f.png)\n\n*What both\nshow.*\n"
-        self.assertEqual(captions_of(text), [("b.png", "a", ""), ("d.png", "c", "What both show."), ("f.png", "e", "What both show.")])
+        text = (
+            "![a](b.png)\n(`command`)\n\nText *in italics*.\n\n![c](d.png)\n![e](f.png)\n\n"
+            "*What both\nshow.*\n"
+        )
+        self.assertEqual(
+            captions_of(text),
+            [
+                ("b.png", "a", ""),
+                ("d.png", "c", "What both show."),
+                ("f.png", "e", "What both show."),
+            ],
+        )
 
 
 if __name__ == "__main__":

@@ -1,7 +1,8 @@
-"""Every preset of CMakePresets.json configures and compiles, and every header compiles alone. The builds of ./check
-compile several files at once, which hides missing includes and warnings. In the default suite, one file of each
-folder is compiled with the flags of the preset `dev`, one file of the engine with those of each other preset, and one
-header of each folder; with --all, the preset `dev` is built, and every header and folder is compiled."""
+"""Every preset of CMakePresets.json configures and compiles, and every header compiles alone. The
+builds of ./check compile several files at once, which hides missing includes and warnings. In the
+default suite, one file of each folder is compiled with the flags of the preset `dev`, one file of
+the engine with those of each other preset, and one header of each folder; with --all, the preset
+`dev` is built, and every header and folder is compiled."""
 
 import concurrent.futures
 import json
@@ -16,13 +17,20 @@ import unittest
 from program import ALL, SOURCE, main, slow
 
 SOURCE = pathlib.Path(SOURCE)
-HEADERS = [file for top in ("src", "track") for file in sorted((SOURCE / top).rglob("*.hpp")) if "tests" not in file.parts]
+HEADERS = [
+    file
+    for top in ("src", "track")
+    for file in sorted((SOURCE / top).rglob("*.hpp"))
+    if "tests" not in file.parts
+]
 # Parsed by the compilers of both presets within a second.
 SMALL = "src/swirl/statistics/"
 
 
 def presets():
-    configured = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))["configurePresets"]
+    configured = json.loads((SOURCE / "CMakePresets.json").read_text(encoding="utf-8"))[
+        "configurePresets"
+    ]
     return {preset["name"]: preset for preset in configured}
 
 
@@ -56,25 +64,39 @@ class Presets(unittest.TestCase):
         if shutil.which(compiler) is None:
             return None
         # Without unity builds, the flags of each file are listed.
-        return subprocess.run(["cmake", "--preset", preset, "-B", cls.folder(preset), "-DSWIRL_UNITY=OFF"], cwd=SOURCE,
-                              capture_output=True, text=True)
+        return subprocess.run(
+            ["cmake", "--preset", preset, "-B", cls.folder(preset), "-DSWIRL_UNITY=OFF"],
+            cwd=SOURCE,
+            capture_output=True,
+            text=True,
+        )
 
     def flags(self, preset):
         """By source file: its compiler with the flags of this preset."""
         found = {}
-        for entry in json.loads((self.folder(preset) / "compile_commands.json").read_text(encoding="utf-8")):
+        for entry in json.loads(
+            (self.folder(preset) / "compile_commands.json").read_text(encoding="utf-8")
+        ):
             words = [word for word in shlex.split(entry["command"]) if not word.endswith("ccache")]
-            found[pathlib.Path(entry["file"])] = words[:words.index("-o")]
+            found[pathlib.Path(entry["file"])] = words[: words.index("-o")]
         return found
 
     def assert_compile(self, calls):
-        """Parses each file or text without writing an object. `calls` are (name, compiler and flags, file or text)."""
+        """Parses each file or text without writing an object. `calls` are (name, compiler and
+        flags, file or text)."""
+
         def parse(call):
             name, flags, code = call
             source = ["-x", "c++", "-"] if isinstance(code, str) else [code]
-            done = subprocess.run([*flags, "-fsyntax-only", *source], cwd=SOURCE, capture_output=True, text=True,
-                                  input=code if isinstance(code, str) else None)
+            done = subprocess.run(
+                [*flags, "-fsyntax-only", *source],
+                cwd=SOURCE,
+                capture_output=True,
+                text=True,
+                input=code if isinstance(code, str) else None,
+            )
             return name, done.returncode, done.stderr
+
         with self.pool() as pool:
             for name, code, errors in pool.map(parse, calls):
                 with self.subTest(name):
@@ -93,7 +115,9 @@ class Presets(unittest.TestCase):
             if done is None or preset == "dev" and ALL:
                 continue
             flags = self.flags(preset)
-            for file in smallest_of_each_folder(file for file in flags if file.name != "version.cpp"):  # needs a made file
+            for file in smallest_of_each_folder(
+                file for file in flags if file.name != "version.cpp"
+            ):  # needs a made file
                 name = str(file.relative_to(SOURCE)) if file.is_relative_to(SOURCE) else ""
                 if name.startswith(("src", "track") if ALL or preset == "dev" else SMALL):
                     calls.append((f"{preset}: {name}", flags[file], file))
@@ -102,7 +126,11 @@ class Presets(unittest.TestCase):
 
     @slow("it takes 13 minutes of processor time")
     def test_dev_builds(self):
-        done = subprocess.run(["cmake", "--build", self.folder("dev"), "--target", "all"], capture_output=True, text=True)
+        done = subprocess.run(
+            ["cmake", "--build", self.folder("dev"), "--target", "all"],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stdout[-10000:])
 
     def test_headers_compile_alone(self):
@@ -111,7 +139,11 @@ class Presets(unittest.TestCase):
         calls = []
         for header in HEADERS if ALL else smallest_of_each_folder(HEADERS):
             name = header.relative_to(SOURCE)
-            folder = next(parent for parent in (*header.parents, SOURCE / "src/swirl/engine") if parent in by_folder)
+            folder = next(
+                parent
+                for parent in (*header.parents, SOURCE / "src/swirl/engine")
+                if parent in by_folder
+            )
             include = name.relative_to("src") if name.parts[0] == "src" else name
             calls.append((name, [*by_folder[folder], f"-I{SOURCE}"], f'#include "{include}"\n'))
         self.assert_compile(calls)

@@ -1,5 +1,6 @@
-"""Checks what a program can check of the language: the glossary's words in README, docs and help, the length of the
-documentation and of sentences in the README, comments without a verb, and the form of commit subjects.
+"""Checks what a program can check of the language: the glossary's words in README, docs and help,
+the length of the documentation and of sentences in the README, comments without a verb, and the
+form of commit subjects.
 
 A sentence that needs a rejected word goes into ALLOWED with the reason."""
 
@@ -11,7 +12,8 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ.get("SWIRL_SOURCE", pathlib.Path(__file__).parents[2]))
 
-# Rejected words, with the word to use. Only words without a second meaning in these pages are listed.
+# Rejected words, with the word to use. Only words without a second meaning in these pages are
+# listed.
 REJECTED = {
     r"\d swirls\b|\bper swirl\b|\bwhole swirls?\b": "period",
     r"\blegs?\b": "segment",
@@ -38,11 +40,29 @@ ALLOWED = {
     # The title of the supplement's section.
     "docs/reference/measurements.md": ["Calculation of location that particles become pinned"],
 }
-PAGES = [SOURCE / "README.md", SOURCE / "CONTRIBUTING.md", SOURCE / "cmake/help.txt", *sorted((SOURCE / "docs").rglob("*.md"))]
+PAGES = [
+    SOURCE / "README.md",
+    SOURCE / "CONTRIBUTING.md",
+    SOURCE / "cmake/help.txt",
+    *sorted((SOURCE / "docs").rglob("*.md")),
+]
 DOCUMENTS = sorted((SOURCE / "docs").rglob("*.md"))
 # Pages on nothing that can be seen, besides the reference.
-ABSTRACT = {f"explanation/{name}.md" for name in ("architecture", "determinism", "reliability", "statistics")} | {
-    f"how-to/{name}.md" for name in ("benchmark", "export", "install", "own_measurement", "report_a_bug", "resume", "slurm")}
+ABSTRACT = {
+    f"explanation/{name}.md"
+    for name in ("architecture", "determinism", "reliability", "statistics")
+} | {
+    f"how-to/{name}.md"
+    for name in (
+        "benchmark",
+        "export",
+        "install",
+        "own_measurement",
+        "report_a_bug",
+        "resume",
+        "slurm",
+    )
+}
 LONGEST = 30  # words in a sentence of the README
 # The convention holds for commits after this one.
 FIRST_COMMIT = "a37b331"
@@ -55,46 +75,75 @@ PREPOSITIONS = """after about above across against along among around as at befo
     from in inside into of on onto outside over per since through to toward towards under until upon where which with
     within without""".split()
 COMMENTED = ("src", "bindings", "bench", "tests", "examples", "web/src")
-# Share of the sentences in comments of src, track and paper in which verbless() finds no verb. It must not grow; lower it
-# when it falls. Of 45 such sentences that were read, one has a verb that the test does not know.
+# Share of the sentences in comments of src, track and paper in which verbless() finds no verb. It
+# must not grow; lower it when it falls. Of 45 such sentences that were read, one has a verb that
+# the test does not know.
 VERBLESS = 0.082
-VERBS = set("""am are be become becomes been bounce bounces build builds can cannot come comes consist consists convolves cost
+VERBS = set(
+    """am are be become becomes been bounce bounces build builds can cannot come comes consist consists convolves cost
     costs could cut cuts deserve did do does draw draws equals err errs fall falls find finds flip flips form forms
     get gets give gives go goes grow grows had has have hit hits hold holds is keep keeps know knows lack lacks
     leave leaves let lets lie lies lose loses make makes matter matters may mean means meet meets might must need
     needs observed produce produces put puts read reads reorders rest rests rise rises run runs say says see sees
     send sends set sets shall should show shows split splits stand stands stay stays stop stops sum sums take takes
-    throw throws took touch touches was were will would wrap wraps write writes""".split())
+    throw throws took touch touches was were will would wrap wraps write writes""".split()
+)
 
 
 def trailing_comments(text):
     """(line number, comment) of comments that follow code in their line."""
     for number, line in enumerate(text.splitlines(), 1):
-        found = re.match(r"\s*(?!//)\S.*?\s//\s+(?=\S)(.*)$", re.sub(r'"(\\.|[^"\\])*"', '""', line))
+        found = re.match(
+            r"\s*(?!//)\S.*?\s//\s+(?=\S)(.*)$", re.sub(r'"(\\.|[^"\\])*"', '""', line)
+        )
         if found:
             yield number, found.group(1)
 
 
 def comment_sentences(text, mark):
-    """Sentences of at least four words in comments of whole lines, without their tables and formulas, which are indented."""
+    """Sentences of at least four words in comments of whole lines, without their tables and
+    formulas, which are indented."""
     lines = [re.match(rf"\s*{mark}[/!]?\s?(.*)", line) for line in text.splitlines()]
     plain = "\n".join(line[1] if line and not line[1].startswith("  ") else "" for line in lines)
     for paragraph in re.split(r"\n\s*\n", plain):
         for sentence in re.split(r"(?<=[.!?])\s+(?=[A-Z`])", " ".join(paragraph.split())):
-            if re.match(r"[A-Z].*\.$", sentence) and len(re.findall(r"[A-Za-z][A-Za-z'-]*", sentence)) >= 4:
+            if (
+                re.match(r"[A-Z].*\.$", sentence)
+                and len(re.findall(r"[A-Za-z][A-Za-z'-]*", sentence)) >= 4
+            ):
                 yield sentence
 
 
 def verbless(sentences):
-    """The sentences without a verb: neither one of VERBS, nor a word of which the sentences have a form in -ed or -ing."""
+    """The sentences without a verb: neither one of VERBS, nor a word of which the sentences have a
+    form in -ed or -ing."""
     words = {word for sentence in sentences for word in re.findall(r"[a-z']+", sentence.lower())}
 
     def is_verb(word):
-        stems = [s for s in (word, word.removesuffix("s"), word.removesuffix("es"), re.sub("ies$", "y", word)) if len(s) > 2]
-        bases = [base for s in stems for base in (s, s + s[-1], s.removesuffix("e"), re.sub("y$", "i", s))]
-        return word in VERBS or any(base + ending in words for base in bases for ending in ("ed", "ing"))
+        stems = [
+            s
+            for s in (
+                word,
+                word.removesuffix("s"),
+                word.removesuffix("es"),
+                re.sub("ies$", "y", word),
+            )
+            if len(s) > 2
+        ]
+        bases = [
+            base
+            for s in stems
+            for base in (s, s + s[-1], s.removesuffix("e"), re.sub("y$", "i", s))
+        ]
+        return word in VERBS or any(
+            base + ending in words for base in bases for ending in ("ed", "ing")
+        )
 
-    return [sentence for sentence in sentences if not any(map(is_verb, re.findall(r"[a-z']+", sentence.lower())))]
+    return [
+        sentence
+        for sentence in sentences
+        if not any(map(is_verb, re.findall(r"[a-z']+", sentence.lower())))
+    ]
 
 
 def prose_of(text):
@@ -112,7 +161,8 @@ def sentences_of(text):
 
 
 def words_of(text):
-    """The words that a reader of the page reads: no code, addresses or alternative texts of pictures."""
+    """The words that a reader of the page reads: no code, addresses or alternative texts of
+    pictures."""
     return re.findall(r"\S*\w\S*", prose_of(re.sub(r"!\[[^\]]*\]\([^)]*\)", "", text)))
 
 
@@ -127,12 +177,34 @@ class Prose(unittest.TestCase):
             for pattern, better in REJECTED.items():
                 found = re.search(pattern, text, re.I)
                 with self.subTest(page=name, write=better):
-                    self.assertIsNone(found, found and text[max(0, found.start() - 60):found.end() + 20])
+                    self.assertIsNone(
+                        found, found and text[max(0, found.start() - 60) : found.end() + 20]
+                    )
 
     def test_rejected_words_are_found(self):
-        for pattern, example in zip(REJECTED, ("30 swirls", "a leg", "a film", "telephone", "nobody", "frictions", "rivals",
-                                               "anew", "mended", "oneself", "beside", "is told to", "in turns", "not a bit",
-                                               "become free", "thin gas", "limb", "mean ball")):
+        for pattern, example in zip(
+            REJECTED,
+            (
+                "30 swirls",
+                "a leg",
+                "a film",
+                "telephone",
+                "nobody",
+                "frictions",
+                "rivals",
+                "anew",
+                "mended",
+                "oneself",
+                "beside",
+                "is told to",
+                "in turns",
+                "not a bit",
+                "become free",
+                "thin gas",
+                "limb",
+                "mean ball",
+            ),
+        ):
             self.assertRegex(example, pattern)
 
     def test_sentences_of_the_readme_are_short(self):
@@ -152,7 +224,10 @@ class Prose(unittest.TestCase):
         self.assertRegex(text, r"N_c = 38\.49 ± 0\.06 \(mean over the discs, by time\)")
 
     def test_the_reason_of_the_effect_is_the_first_link(self):
-        for name, first in (("README.md", "docs/explanation/why.md"), ("docs/index.md", "explanation/why.md")):
+        for name, first in (
+            ("README.md", "docs/explanation/why.md"),
+            ("docs/index.md", "explanation/why.md"),
+        ):
             text = (SOURCE / name).read_text(encoding="utf-8")
             self.assertEqual(re.search(r"(?<!!)\[[^\]]*\]\(([^)]*)\)", text)[1], first, name)
         for language in ("en", "de"):
@@ -166,7 +241,12 @@ class Prose(unittest.TestCase):
         self.assertTrue(400 <= words <= 1000, words)
 
     def test_the_index_answers_25_questions_of_five_readers(self):
-        text = (SOURCE / "docs/index.md").read_text(encoding="utf-8").split("## Questions")[1].split("\n## ")[0]
+        text = (
+            (SOURCE / "docs/index.md")
+            .read_text(encoding="utf-8")
+            .split("## Questions")[1]
+            .split("\n## ")[0]
+        )
         self.assertEqual(len(re.findall(r"^\| \*\*", text, re.M)), 5)
         self.assertGreaterEqual(len(re.findall(r"^\| [^*|]+ \| \[.*\]\(", text, re.M)), 25)
 
@@ -184,42 +264,76 @@ class Prose(unittest.TestCase):
         self.assertGreaterEqual(shown / len(DOCUMENTS), 0.5)
 
     def test_commits_give_their_reason(self):
-        done = subprocess.run(["git", "-C", SOURCE, "log", "--no-merges", "--format=%h%x00%b%x01", f"{FIRST_REASON}..HEAD"],
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [
+                "git",
+                "-C",
+                SOURCE,
+                "log",
+                "--no-merges",
+                "--format=%h%x00%b%x01",
+                f"{FIRST_REASON}..HEAD",
+            ],
+            capture_output=True,
+            text=True,
+        )
         if done.returncode != 0:
             self.skipTest("the history of this copy is not available")
         bodies = [entry.partition("\0")[2] for entry in done.stdout.split("\1") if entry.strip()]
         given = sum(len(words_of(body)) >= 8 for body in bodies)
-        self.assertGreaterEqual(given, 0.9 * len(bodies), "the body of a commit gives the reason of the change")
+        self.assertGreaterEqual(
+            given, 0.9 * len(bodies), "the body of a commit gives the reason of the change"
+        )
 
     def test_commit_subjects_name_an_area(self):
-        done = subprocess.run(["git", "-C", SOURCE, "log", "--format=%s", f"{FIRST_COMMIT}..HEAD"],
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            ["git", "-C", SOURCE, "log", "--format=%s", f"{FIRST_COMMIT}..HEAD"],
+            capture_output=True,
+            text=True,
+        )
         if done.returncode != 0:
             self.skipTest("the history of this copy is not available")
         for subject in done.stdout.splitlines():
             with self.subTest(subject):
                 self.assertLessEqual(len(subject), 72)
-                self.assertRegex(subject, r"^(README|[a-z0-9][a-z0-9/_, -]*): [a-zA-Z0-9`\-].*[^.]$|^Merge ")
+                self.assertRegex(
+                    subject, r"^(README|[a-z0-9][a-z0-9/_, -]*): [a-zA-Z0-9`\-].*[^.]$|^Merge "
+                )
 
     def test_comments_have_a_verb(self):
-        sentences = [sentence for folder in ("src", "track", "paper") for file in sorted((SOURCE / folder).rglob("*"))
-                     if file.suffix in (".cpp", ".hpp", ".py")
-                     for sentence in comment_sentences(file.read_text(encoding="utf-8"), "#" if file.suffix == ".py" else "//")]
+        sentences = [
+            sentence
+            for folder in ("src", "track", "paper")
+            for file in sorted((SOURCE / folder).rglob("*"))
+            if file.suffix in (".cpp", ".hpp", ".py")
+            for sentence in comment_sentences(
+                file.read_text(encoding="utf-8"), "#" if file.suffix == ".py" else "//"
+            )
+        ]
         found = verbless(sentences)
         self.assertGreater(len(sentences), 3000)
         self.assertLessEqual(len(found) / len(sentences), VERBLESS, "\n".join(found))
-        code = "// Of one disc in one layer.\n// It has a verb. Moved by one.\nint a;\n//   Table of four words.\n"
-        self.assertEqual(list(comment_sentences(code, "//")), ["Of one disc in one layer.", "It has a verb."])
-        self.assertEqual(verbless(["Of one disc in one layer.", "It has a verb.", "It moves the moved disc."]),
-                         ["Of one disc in one layer."])
+        code = (
+            "// Of one disc in one layer.\n// It has a verb. Moved by one.\nint a;\n"
+            "//   Table of four words.\n"
+        )
+        self.assertEqual(
+            list(comment_sentences(code, "//")), ["Of one disc in one layer.", "It has a verb."]
+        )
+        self.assertEqual(
+            verbless(["Of one disc in one layer.", "It has a verb.", "It moves the moved disc."]),
+            ["Of one disc in one layer."],
+        )
 
     def test_sample_of_texts_depends_on_the_version_only(self):
         import text_sample
+
         drawn = text_sample.sample("1.0.0")
         # A copy without history has no texts of commits.
-        self.assertEqual([kind for kind, _, _ in drawn if kind != "commit"],
-                         [kind for kind in text_sample.KINDS[:-1] for _ in range(4)])
+        self.assertEqual(
+            [kind for kind, _, _ in drawn if kind != "commit"],
+            [kind for kind in text_sample.KINDS[:-1] for _ in range(4)],
+        )
         self.assertEqual(drawn, text_sample.sample("1.0.0"))
         self.assertNotEqual(drawn, text_sample.sample("1.0.1"))
 
@@ -229,11 +343,15 @@ class Prose(unittest.TestCase):
             name = str(file.relative_to(SOURCE))
             if file.suffix not in (".cpp", ".hpp", ".ts", ".mjs"):
                 continue
-            wrong += [f"{name}:{number}: {comment}"
-                      for number, comment in trailing_comments(file.read_text(encoding="utf-8"))
-                      if comment.split()[0].rstrip(",:;") in PREPOSITIONS]
+            wrong += [
+                f"{name}:{number}: {comment}"
+                for number, comment in trailing_comments(file.read_text(encoding="utf-8"))
+                if comment.split()[0].rstrip(",:;") in PREPOSITIONS
+            ]
         self.assertEqual("\n".join(wrong), "")
-        self.assertEqual(list(trailing_comments("int a;  // of b\n  // of c\nf(\"// of d\");\n")), [(1, "of b")])
+        self.assertEqual(
+            list(trailing_comments('int a;  // of b\n  // of c\nf("// of d");\n')), [(1, "of b")]
+        )
 
 
 if __name__ == "__main__":

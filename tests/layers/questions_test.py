@@ -1,5 +1,6 @@
-"""Questions that five kinds of readers ask, and where docs/index.md sends them: the linked section must exist and answer. Each
-entry has the words that the answer cannot do without. So a link to a page that begins with something else is a failure."""
+"""Questions that five kinds of readers ask, and where docs/index.md sends them: the linked section
+must exist and answer. Each entry has the words that the answer cannot do without. So a link to a
+page that begins with something else is a failure."""
 
 import os
 import pathlib
@@ -47,13 +48,14 @@ def anchor_of(heading):
 
 
 def section_of(text, anchor):
-    """The section with this anchor, up to the next heading of its level; the whole page without an anchor, or None."""
+    """The section with this anchor, up to the next heading of its level; the whole page without an
+    anchor, or None."""
     if not anchor:
         return text
     for found in re.finditer(r"^(#+) (.*)$", text, re.M):
         if anchor_of(found[2]) == anchor:
-            end = re.search(rf"^#{{1,{len(found[1])}}} ", text[found.end():], re.M)
-            return text[found.start():found.end() + end.start()] if end else text[found.start():]
+            end = re.search(rf"^#{{1,{len(found[1])}}} ", text[found.end() :], re.M)
+            return text[found.start() : found.end() + end.start()] if end else text[found.start() :]
     return None
 
 
@@ -64,7 +66,11 @@ def unanswered(index, folder, answers):
     for question, patterns in answers.items():
         page, anchor = links.get(question, (None, None))
         file = folder / page if page else None
-        section = section_of(file.read_text(encoding="utf-8"), anchor) if file and file.is_file() else None
+        section = (
+            section_of(file.read_text(encoding="utf-8"), anchor)
+            if file and file.is_file()
+            else None
+        )
         if section is None or not all(re.search(pattern, section) for pattern in patterns):
             missing.append(question)
     return missing
@@ -76,15 +82,25 @@ class Questions(unittest.TestCase):
         self.assertEqual(unanswered(INDEX.read_text(encoding="utf-8"), INDEX.parent, ANSWERS), [])
 
     def test_every_question_of_the_index_is_checked(self):
-        asked = [question for question, page, _ in ROW.findall(INDEX.read_text(encoding="utf-8").split("\n## Tutorials")[0])]
+        asked = [
+            question
+            for question, page, _ in ROW.findall(
+                INDEX.read_text(encoding="utf-8").split("\n## Tutorials")[0]
+            )
+        ]
         self.assertEqual(sorted(asked), sorted(ANSWERS))
 
     def test_wrong_links_are_found(self):
         def found(row):
             return unanswered(row + "\n", INDEX.parent, {"Where?": ("`repeat`",)})
+
         self.assertEqual(found("| Where? | [here](how-to/report_a_bug.md) |"), [])
-        for row in ("| Where? | [here](how-to/no_such_page.md) |", "| Where? | [here](how-to/report_a_bug.md#no-such-section) |",
-                    "| Where? | [here](how-to/install.md) |", "| Who? | [here](how-to/report_a_bug.md) |"):
+        for row in (
+            "| Where? | [here](how-to/no_such_page.md) |",
+            "| Where? | [here](how-to/report_a_bug.md#no-such-section) |",
+            "| Where? | [here](how-to/install.md) |",
+            "| Who? | [here](how-to/report_a_bug.md) |",
+        ):
             self.assertEqual(found(row), ["Where?"], row)
 
 

@@ -1,13 +1,14 @@
-"""The version is defined in CMakeLists.txt. All other files state the same. The page of file formats has the
-numbers of the sources."""
+"""The version is defined in CMakeLists.txt. All other files state the same. The page of file
+formats has the numbers of the sources."""
 
 import json
 import os
 import re
 import unittest
 
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
 # The pattern of the version in each file.
 STATED = {
     "CITATION.cff": r"^version: (\S+)$",
@@ -33,15 +34,19 @@ def text_of(name):
 
 
 def cmake_version():
-    return re.search(r"^project\(swirl VERSION (\d+\.\d+\.\d+) ", text_of("CMakeLists.txt"), re.M)[1]
+    return re.search(r"^project\(swirl VERSION (\d+\.\d+\.\d+) ", text_of("CMakeLists.txt"), re.M)[
+        1
+    ]
 
 
 class Release(unittest.TestCase):
     def test_every_file_states_the_version_of_cmake(self):
         for name, pattern in STATED.items():
             with self.subTest(name):
-                found = [next(filter(None, match.groups()))
-                         for match in re.finditer(pattern, text_of(name), re.M)]
+                found = [
+                    next(filter(None, match.groups()))
+                    for match in re.finditer(pattern, text_of(name), re.M)
+                ]
                 self.assertTrue(found)
                 self.assertEqual(set(found), {cmake_version()})
 
@@ -63,10 +68,16 @@ class Release(unittest.TestCase):
     def test_one_minimum_version_of_cmake(self):
         minimum = set()
         for folder, folders, names in os.walk(SOURCE):
-            folders[:] = [f for f in folders if not f.startswith((".", "build", "node_modules", "out"))]
+            folders[:] = [
+                f for f in folders if not f.startswith((".", "build", "node_modules", "out"))
+            ]
             if "CMakeLists.txt" in names:
-                minimum.update(re.findall(r"cmake_minimum_required\(VERSION ([\d.]+)",
-                                          text_of(os.path.relpath(os.path.join(folder, "CMakeLists.txt"), SOURCE))))
+                minimum.update(
+                    re.findall(
+                        r"cmake_minimum_required\(VERSION ([\d.]+)",
+                        text_of(os.path.relpath(os.path.join(folder, "CMakeLists.txt"), SOURCE)),
+                    )
+                )
         self.assertEqual(len(minimum), 1, minimum)
         wanted = minimum.pop()
         presets = json.loads(text_of("CMakePresets.json"))["cmakeMinimumRequired"]

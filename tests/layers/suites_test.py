@@ -1,4 +1,5 @@
-"""Every test is in exactly one of the suites default, slow and soak, and no limit of a test depends on the clock."""
+"""Every test is in exactly one of the suites default, slow and soak, and no limit of a test depends
+on the clock."""
 
 import os
 import pathlib
@@ -15,19 +16,30 @@ import targets  # noqa: E402
 SUITES = {"default": ["-LE", "slow|soak"], "slow": ["-L", "slow"], "soak": ["-L", "soak"]}
 # The builds of the sanitizers have these tests.
 ONLY_WITH_INTERNAL_CHECKS = "engine.InvariantViolation."
-# A limit in seconds or a moment in the future. A test in another program's language has its own words.
-BY_THE_CLOCK = {"CMakeLists.txt": r"TIMEOUT \d", "*.py": r"timeout=\d|\btime\(\) ?[+<]|\bmonotonic\(\) ?[+<]|wait\(\d",
-                "*.mjs": r"timeout: ?\d|DefaultTimeout\(\d|\}, \d+_000\)",
-                "*.cpp": r"usleep\(1'?000'?000|sleep_for\(std::chrono::seconds"}
+# A limit in seconds or a moment in the future. A test in another program's language has its own
+# words.
+BY_THE_CLOCK = {
+    "CMakeLists.txt": r"TIMEOUT \d",
+    "*.py": r"timeout=\d|\btime\(\) ?[+<]|\bmonotonic\(\) ?[+<]|wait\(\d",
+    "*.mjs": r"timeout: ?\d|DefaultTimeout\(\d|\}, \d+_000\)",
+    "*.cpp": r"usleep\(1'?000'?000|sleep_for\(std::chrono::seconds",
+}
 FOLDERS = ("tests/**", "track/tests/**", "web", "web/test")
 # The tests of waiting itself, and of what happens meanwhile.
-ALLOWED = {"tests/cli/launcher_test.py": "time.time() + 7200", "tests/cli/series_test.py": "started.wait(0.15)"}
+ALLOWED = {
+    "tests/cli/launcher_test.py": "time.time() + 7200",
+    "tests/cli/series_test.py": "started.wait(0.15)",
+}
 
 
 def listed(*options):
     """The names of ctest, with all values of a parameter under one name: layer.Suite.Test."""
-    done = subprocess.run(["ctest", "--test-dir", os.environ["SWIRL_LIBRARIES"], "-N", *options],
-                          capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        ["ctest", "--test-dir", os.environ["SWIRL_LIBRARIES"], "-N", *options],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
     names = re.findall(r"^ *Test +#\d+: (\S+)", done.stdout, re.M)
     return {re.sub(r"^(\w+)\.(?:\w+/)?(\w+\.\w+?)(/.*)?$", r"\1.\2", name) for name in names}
 
@@ -56,7 +68,9 @@ class Suites(unittest.TestCase):
                 seen += 1
                 with self.subTest(name):
                     prefix = re.search(r"\.(Slow|Soak)_\w+$", name)
-                    self.assertEqual(self.suite_of(name), prefix[1].lower() if prefix else "default")
+                    self.assertEqual(
+                        self.suite_of(name), prefix[1].lower() if prefix else "default"
+                    )
         self.assertGreater(seen, 100)
 
     def test_each_script_is_a_test_and_runs_complete_in_the_slow_suite(self):
@@ -67,15 +81,26 @@ class Suites(unittest.TestCase):
             name = f"{folder}.{script.stem}"
             complete = f"{name.removesuffix('_test')}_slow"
             with self.subTest(name):
-                self.suite_of(complete if complete in self.suites["slow"] and folder not in ("cli", "faults") else name)
-                if folder in ("cli", "track") and re.search(r"^from program import .*\b(slow|some|ALL)\b",
-                                                            script.read_text(encoding="utf-8"), re.M):
+                self.suite_of(
+                    complete
+                    if complete in self.suites["slow"] and folder not in ("cli", "faults")
+                    else name
+                )
+                if folder in ("cli", "track") and re.search(
+                    r"^from program import .*\b(slow|some|ALL)\b",
+                    script.read_text(encoding="utf-8"),
+                    re.M,
+                ):
                     whole = f"cli.{script.stem.removesuffix('_test')}_all_slow"
-                    self.assertTrue({whole, complete} & self.suites["slow"], "no slow test calls it with --all")
+                    self.assertTrue(
+                        {whole, complete} & self.suites["slow"], "no slow test calls it with --all"
+                    )
 
     def test_a_test_without_end_is_stopped_by_its_processor_time(self):
         limited = ["sh", SOURCE / "tests/limited.sh", "1"]
-        done = subprocess.run([*limited, sys.executable, "-c", "while True: pass"], capture_output=True, text=True)
+        done = subprocess.run(
+            [*limited, sys.executable, "-c", "while True: pass"], capture_output=True, text=True
+        )
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("more than 1 seconds of processor time", done.stdout)
         self.assertEqual(subprocess.run([*limited, "sh", "-c", "exit 77"]).returncode, 77)
@@ -88,7 +113,10 @@ class Suites(unittest.TestCase):
                     continue
                 text = file.read_text(encoding="utf-8").replace(ALLOWED.get(name, "\0"), "")
                 with self.subTest(name):
-                    self.assertIsNone(re.search(limit, text), "wait for the event (program.wait_until), or for HANG")
+                    self.assertIsNone(
+                        re.search(limit, text),
+                        "wait for the event (program.wait_until), or for HANG",
+                    )
 
 
 if __name__ == "__main__":

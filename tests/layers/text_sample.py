@@ -1,4 +1,5 @@
-"""Prints 20 texts of the project that a stranger reads before a release. The version is the seed of the draw:
+"""Prints 20 texts of the project that a stranger reads before a release. The version is the seed of
+the draw:
 
     python3 tests/layers/text_sample.py 1.0.0
 """
@@ -16,7 +17,8 @@ KINDS = ("page", "help", "message", "comment", "commit")
 
 
 def texts():
-    """(kind, place, text) of every paragraph of the pages, option, error message, comment and body of a commit."""
+    """(kind, place, text) of every paragraph of the pages, option, error message, comment and body
+    of a commit."""
     for page in prose.PAGES:
         name = str(page.relative_to(SOURCE))
         text = page.read_text(encoding="utf-8")
@@ -27,16 +29,26 @@ def texts():
         for paragraph in re.split(r"\n\s*\n", re.sub(r"```.*?```", "", text, flags=re.S)):
             if re.match(r"[A-Z*-]", paragraph):
                 yield "page", name, paragraph
-    for file in (file for folder in ("src", "track", "paper") for file in sorted((SOURCE / folder).rglob("*"))):
+    for file in (
+        file
+        for folder in ("src", "track", "paper")
+        for file in sorted((SOURCE / folder).rglob("*"))
+    ):
         name = str(file.relative_to(SOURCE))
         if file.suffix in (".cpp", ".hpp", ".py"):
             text = file.read_text(encoding="utf-8")
             for sentence in prose.comment_sentences(text, "#" if file.suffix == ".py" else "//"):
                 yield "comment", name, sentence
-            for message in re.findall(r'(?:Error|Failure)\(\s*(?:fmt::format\(\s*)?((?:"(?:\\.|[^"\\])*"\s*)+)', text):
+            for message in re.findall(
+                r'(?:Error|Failure)\(\s*(?:fmt::format\(\s*)?((?:"(?:\\.|[^"\\])*"\s*)+)', text
+            ):
                 yield "message", name, "".join(re.findall(r'"((?:\\.|[^"\\])*)"', message))
-    log = subprocess.run(["git", "-C", SOURCE, "log", "--no-merges", "-200", "--format=%h%x00%s%n%b%x01"], capture_output=True,
-                         text=True, check=False).stdout
+    log = subprocess.run(
+        ["git", "-C", SOURCE, "log", "--no-merges", "-200", "--format=%h%x00%s%n%b%x01"],
+        capture_output=True,
+        text=True,
+        check=False,
+    ).stdout
     for entry in log.split("\1"):
         name, _, text = entry.strip().partition("\0")
         if text:

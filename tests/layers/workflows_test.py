@@ -1,15 +1,18 @@
-"""The workflows (.github/workflows) trust as little as possible: actions are pinned by commit, a job that runs scripts
-of others has no token that can write, and no token stays in the clone."""
+"""The workflows (.github/workflows) trust as little as possible: actions are pinned by commit, a
+job that runs scripts of others has no token that can write, and no token stays in the clone."""
 
 import glob
 import os
 import re
 import unittest
 
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
 # A command that runs scripts of other projects: of npm's packages, of an installer or of a build.
-RUNS_SCRIPTS = re.compile(r"\./swirl|\./check|\bnpm\b|\bpip|\bapt-get\b|\bbrew\b|\bcmake\b|packaging/")
+RUNS_SCRIPTS = re.compile(
+    r"\./swirl|\./check|\bnpm\b|\bpip|\bapt-get\b|\bbrew\b|\bcmake\b|packaging/"
+)
 
 
 def workflows():
@@ -35,8 +38,10 @@ class Workflows(unittest.TestCase):
     def test_no_token_stays_in_a_clone(self):
         for name, text in workflows():
             with self.subTest(workflow=name):
-                self.assertEqual(len(re.findall("uses: actions/checkout@", text)),
-                                 len(re.findall("persist-credentials: false", text)))
+                self.assertEqual(
+                    len(re.findall("uses: actions/checkout@", text)),
+                    len(re.findall("persist-credentials: false", text)),
+                )
 
     def test_the_token_of_a_workflow_can_only_read(self):
         for name, text in workflows():

@@ -1,5 +1,5 @@
-"""`cmake --install` writes a library for other projects and a program that works in any folder. `cpack`
-writes one Debian package of each, with its dependencies."""
+"""`cmake --install` writes a library for other projects and a program that works in any folder.
+`cpack` writes one Debian package of each, with its dependencies."""
 
 import csv
 import glob
@@ -52,8 +52,9 @@ class Installed(unittest.TestCase):
         for file in glob.glob(f"{self.prefix}/**/cmake/swirl/*.cmake", recursive=True):
             with open(file) as opened:
                 text += opened.read()
-        self.assertEqual(set(re.findall(r'INTERFACE_COMPILE_OPTIONS "(.*)"', text)),
-                         {"-ffp-contract=off"})
+        self.assertEqual(
+            set(re.findall(r'INTERFACE_COMPILE_OPTIONS "(.*)"', text)), {"-ffp-contract=off"}
+        )
         self.assertNotIn("INTERFACE_COMPILE_DEFINITIONS", text)
 
     def test_the_headers_outside_detail_are_those_of_the_reference(self):
@@ -63,17 +64,30 @@ class Installed(unittest.TestCase):
         with open(os.path.join(SOURCE, "docs", "reference", "cpp.md"), encoding="utf-8") as page:
             documented = set(re.findall(r"\.\./\.\./src/(swirl/[\w/]+\.hpp)", page.read()))
         self.assertEqual(public, documented)
-        self.assertEqual(sorted(os.listdir(os.path.join(include, "swirl/detail/swirl"))),
-                         ["engine", "math", "measure", "physics", "statistics"])
+        self.assertEqual(
+            sorted(os.listdir(os.path.join(include, "swirl/detail/swirl"))),
+            ["engine", "math", "measure", "physics", "statistics"],
+        )
 
     def build_examples(self, compiler):
         build = os.path.join(self.folder, os.path.basename(compiler))
-        output_of("cmake", "-S", os.path.join(SOURCE, "examples"), "-B", build, "-G", "Ninja",
-                  f"-DCMAKE_PREFIX_PATH={self.prefix}", f"-DCMAKE_CXX_COMPILER={compiler}",
-                  "-DCMAKE_CXX_FLAGS=-O1 -Wall -Werror")
+        output_of(
+            "cmake",
+            "-S",
+            os.path.join(SOURCE, "examples"),
+            "-B",
+            build,
+            "-G",
+            "Ninja",
+            f"-DCMAKE_PREFIX_PATH={self.prefix}",
+            f"-DCMAKE_CXX_COMPILER={compiler}",
+            "-DCMAKE_CXX_FLAGS=-O1 -Wall -Werror",
+        )
         output_of("cmake", "--build", build)
-        return {name: output_of(os.path.join(build, name))
-                for name in ("rotation_rate", "events_one_by_one", "custom_measurement")}
+        return {
+            name: output_of(os.path.join(build, name))
+            for name in ("rotation_rate", "events_one_by_one", "custom_measurement")
+        }
 
     def test_examples(self):
         output = self.build_examples("g++")
@@ -83,10 +97,17 @@ class Installed(unittest.TestCase):
         distance = float(re.search(r"centre: ([0-9.]+)", output["custom_measurement"])[1])
         self.assertTrue(4.0 < distance < 6.0, distance)
         # The program starts from other velocities: the means agree within four standard errors.
-        program = json.loads(output_of(self.program, "run", "--discs", 48, "--periods", 220, "--quiet",
-                                    "--json", "-"))["rotation"]["mean_by_event"]
-        varpi, error = map(float, re.search(r"counterrotate: ϖ/Ω = (-[0-9.]+) ± ([0-9.]+)",
-                                            output["rotation_rate"]).groups())
+        program = json.loads(
+            output_of(
+                self.program, "run", "--discs", 48, "--periods", 220, "--quiet", "--json", "-"
+            )
+        )["rotation"]["mean_by_event"]
+        varpi, error = map(
+            float,
+            re.search(
+                r"counterrotate: ϖ/Ω = (-[0-9.]+) ± ([0-9.]+)", output["rotation_rate"]
+            ).groups(),
+        )
         self.assertLess(abs(varpi - program["mean"]), 4.0 * math.hypot(error, program["error"]))
         if shutil.which("clang++-19"):
             self.assertEqual(self.build_examples("clang++-19"), output)
@@ -96,8 +117,18 @@ class Installed(unittest.TestCase):
         work = os.path.join(self.folder, "work")
         os.mkdir(work)
         os.chmod(work, 0o777)
-        output_of(self.program, "paper", "--figure", "5b", "--quick", "--events", 2000, cwd=work,
-                  env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"}, **other_user())
+        output_of(
+            self.program,
+            "paper",
+            "--figure",
+            "5b",
+            "--quick",
+            "--events",
+            2000,
+            cwd=work,
+            env={"PATH": "/usr/bin:/bin", "HOME": "/nonexistent"},
+            **other_user(),
+        )
         with open(os.path.join(work, "out", "figure_5b.csv"), newline="") as file:
             self.assertGreater(len(list(csv.DictReader(file))), 10)
         self.assertGreater(os.path.getsize(os.path.join(work, "out", "figure_5b.png")), 5000)
@@ -123,7 +154,8 @@ class DebianPackages(unittest.TestCase):
     def test_program_lists_its_dependencies_once(self):
         package = self.package("swirl")
         required, recommended = self.field(package, "Depends"), self.field(package, "Recommends")
-        # HDF5 is part of the program on Debian 12 (cmake/program.cmake); it needs zlib in either case.
+        # HDF5 is part of the program on Debian 12 (cmake/program.cmake); it needs zlib in either
+        # case.
         for name in ("libc6", "libcairo2", "libfmt", "zlib1g", "fonts-dejavu-core"):
             self.assertIn(name, ", ".join(required))
         for name in ("ffmpeg", "python3-matplotlib"):
@@ -131,8 +163,11 @@ class DebianPackages(unittest.TestCase):
         names = [name.partition(" ")[0] for name in required + recommended]
         self.assertEqual(sorted(set(names)), sorted(names))
         files = output_of("dpkg-deb", "--contents", package)
-        for path in ("usr/bin/swirl", "usr/share/swirl/paper/figures/figure_5b.py",
-                     "usr/share/doc/swirl/copyright"):
+        for path in (
+            "usr/bin/swirl",
+            "usr/share/swirl/paper/figures/figure_5b.py",
+            "usr/share/doc/swirl/copyright",
+        ):
             self.assertIn(path, files)
         for path in ("usr/include", ".a\n", "swirlConfig.cmake"):
             self.assertNotIn(path, files)
@@ -142,14 +177,21 @@ class DebianPackages(unittest.TestCase):
         self.assertEqual(self.field(package, "Depends"), ["g++ | libstdc++-dev"])
         self.assertEqual(self.field(package, "Recommends"), [""])
         files = output_of("dpkg-deb", "--contents", package)
-        for path in ("usr/include/swirl/engine/simulation.hpp", "swirlConfig.cmake",
-                     "usr/share/doc/libswirl-dev/copyright"):
+        for path in (
+            "usr/include/swirl/engine/simulation.hpp",
+            "swirlConfig.cmake",
+            "usr/share/doc/libswirl-dev/copyright",
+        ):
             self.assertIn(path, files)
         self.assertNotIn("usr/bin", files)
 
     @unittest.skipUnless(shutil.which("lintian"), "this test needs lintian")
     def test_lintian_finds_no_error(self):
-        done = subprocess.run(["lintian", "--allow-root", "--fail-on", "error", *self.packages], capture_output=True, text=True)
+        done = subprocess.run(
+            ["lintian", "--allow-root", "--fail-on", "error", *self.packages],
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_apt_can_install_them_together(self):

@@ -1,4 +1,5 @@
-"""Random mutations of the sources that compute: constants, comparisons, signs, indices and conditions.
+"""Random mutations of the sources that compute: constants, comparisons, signs, indices and
+conditions.
 
 A site is one place in a line where one operator applies. mutate.py --random draws sites with equal
 chances from a seed, so a large file has more of them.
@@ -10,22 +11,45 @@ import re
 
 LAYERS = ("math", "physics", "engine", "statistics", "measure", "run", "study")
 
-# The source is formatted: a binary operator stands between spaces, and the brackets of a template do not.
+# The source is formatted: a binary operator stands between spaces, and the brackets of a template
+# do not.
 SWAPS = {
-    "comparison": {" < ": " <= ", " <= ": " < ", " > ": " >= ", " >= ": " > ", " == ": " != ", " != ": " == "},
-    "sign": {" + ": " - ", " - ": " + ", " * ": " / ", " / ": " * ", " += ": " -= ", " -= ": " += "},
+    "comparison": {
+        " < ": " <= ",
+        " <= ": " < ",
+        " > ": " >= ",
+        " >= ": " > ",
+        " == ": " != ",
+        " != ": " == ",
+    },
+    "sign": {
+        " + ": " - ",
+        " - ": " + ",
+        " * ": " / ",
+        " / ": " * ",
+        " += ": " -= ",
+        " -= ": " += ",
+    },
     "boolean": {" && ": " || ", " || ": " && ", "true": "false", "false": "true"},
     "off by one": {".size()": ".size() - 1", ".begin()": ".begin() + 1", "++": "--"},
 }
 NUMBER = re.compile(r"(?<![\w.])(\d+\.\d+|\d+)(e-?\d+)?(?![\w.'\"])")
-CONDITION = re.compile(r"\bif \((?!constexpr)|\breturn (?=[^;{}\"]*(?:[=!<>]=| [<>] |&&|\|\|)[^;{}\"]*;)")
+CONDITION = re.compile(
+    r"\bif \((?!constexpr)|\breturn (?=[^;{}\"]*(?:[=!<>]=| [<>] |&&|\|\|)[^;{}\"]*;)"
+)
 # Nothing that runs: declarations of templates and concepts, and what the compiler checks.
-SKIPPED = re.compile(r"^\s*(#|//|template|static_assert|namespace|using|requires|concept|SWIRL_CHECK|SWIRL_HAS)")
+SKIPPED = re.compile(
+    r"^\s*(#|//|template|static_assert|namespace|using|requires|concept|SWIRL_CHECK|SWIRL_HAS)"
+)
 
 
 def blanked(text):
     """The text with comments and strings replaced by spaces: sites have the same positions."""
-    return re.sub(r"//[^\n]*|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", lambda found: " " * len(found[0]), text)
+    return re.sub(
+        r"//[^\n]*|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'",
+        lambda found: " " * len(found[0]),
+        text,
+    )
 
 
 def other_number(text):
@@ -35,7 +59,8 @@ def other_number(text):
 
 
 def closing(line, begin):
-    """The position of the bracket that closes the one before `begin`; -1 if it is in a later line."""
+    """The position of the bracket that closes the one before `begin`; -1 if it is in a later
+    line."""
     depth = 1
     for at in range(begin, len(line)):
         depth += {"(": 1, ")": -1}.get(line[at], 0)
@@ -79,7 +104,9 @@ def sites(source):
                         changed = line[:begin] + after + line[end:]
                         if after.startswith("!("):  # with the strings that were blanked
                             changed = f"{line[:begin]}!({line[begin:end]}){line[end:]}"
-                        found.append((os.path.relpath(path, source), number, line, changed, operator))
+                        found.append(
+                            (os.path.relpath(path, source), number, line, changed, operator)
+                        )
     return found
 
 

@@ -1,10 +1,11 @@
 """Mutation testing: does a test fail when the source is wrong? (docs/explanation/reliability.md)
 
-A mutation changes one piece of text in a source file. The mutated file goes to a scratch folder that the
-compiler searches first; the source tree is not changed. For every test file that includes the mutated
-file, this script compiles one program and runs it, until one fails: then the mutation is killed. The tests
-of the file's own layer come first. Each program must pass without the mutation before it may kill one.
-At last, a warning of the compiler kills it, as it stops the build of the tests.
+A mutation changes one piece of text in a source file. The mutated file goes to a scratch folder
+that the compiler searches first; the source tree is not changed. For every test file that includes
+the mutated file, this script compiles one program and runs it, until one fails: then the mutation
+is killed. The tests of the file's own layer come first. Each program must pass without the mutation
+before it may kill one. At last, a warning of the compiler kills it, as it stops the build of the
+tests.
 
     mutate.py                       the chosen mutations of mutations.py
     mutate.py measure/slip          those of files whose path contains this text
@@ -13,16 +14,18 @@ At last, a warning of the compiler kills it, as it stops the build of the tests.
     mutate.py --check               only checks that each text occurs exactly once
     mutate.py --random 100 --seed 4 mutations drawn from a seed (draw.py)
     mutate.py --random 60 --seed today --score 90
-                                    a sample for which no test was written: the seed is the date (UTC)
+                                    a sample for which no test was written: the seed is the date
+                                    (UTC)
     mutate.py --random 60 --seed 4 --number 0 1 2 3 --objects FOLDER
-                                    a part of a sample. The next call, for the next part, uses the objects of this one
+                                    a part of a sample. The next call, for the next part, uses the
+                                    objects of this one
 
-The score of a random sample is the share that a test notices, of the mutations that compile and are not in
-equivalent.py. A mutation that changes no result, and is not there yet, counts as missed.
+The score of a random sample is the share that a test notices, of the mutations that compile and are
+not in equivalent.py. A mutation that changes no result, and is not there yet, counts as missed.
 
-The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare equivalent (with
---score: if the score is lower), if an equivalent one is killed, if a chosen one does not compile, or if the table
-no longer matches the sources.
+The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare
+equivalent (with --score: if the score is lower), if an equivalent one is killed, if a chosen one
+does not compile, or if the table no longer matches the sources.
 """
 
 import argparse
@@ -44,22 +47,49 @@ import draw
 from equivalent import EQUIVALENT
 from mutations import MUTATIONS
 
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
 COMPILER = os.environ.get("CXX", "c++")
-FLAGS = ["-std=c++20", "-O1", "-w", "-DNDEBUG", "-fno-math-errno", "-fno-trapping-math",
-         "-ffp-contract=off", f'-DSWIRL_SOURCE_DIR="{SOURCE}"']
-WIDE = {"_avx2.cpp": ["-mavx2"],
-        "_avx512.cpp": ["-mavx512f", "-mavx512vl", "-mavx512dq", "-mavx512bw",
-                        "-mprefer-vector-width=512"]}
-LIBRARIES = ["-lrapidcheck", "-lgmock_main", "-lgmock", "-lgtest", "-lfmt", "-lhdf5_serial", "-lhdf5_serial_hl"]
-# In this order; a test belongs to the layer of its folder. The higher layers need other programs to be tested.
+FLAGS = [
+    "-std=c++20",
+    "-O1",
+    "-w",
+    "-DNDEBUG",
+    "-fno-math-errno",
+    "-fno-trapping-math",
+    "-ffp-contract=off",
+    f'-DSWIRL_SOURCE_DIR="{SOURCE}"',
+]
+WIDE = {
+    "_avx2.cpp": ["-mavx2"],
+    "_avx512.cpp": [
+        "-mavx512f",
+        "-mavx512vl",
+        "-mavx512dq",
+        "-mavx512bw",
+        "-mprefer-vector-width=512",
+    ],
+}
+LIBRARIES = [
+    "-lrapidcheck",
+    "-lgmock_main",
+    "-lgmock",
+    "-lgtest",
+    "-lfmt",
+    "-lhdf5_serial",
+    "-lhdf5_serial_hl",
+]
+# In this order; a test belongs to the layer of its folder. The higher layers need other programs to
+# be tested.
 LAYERS = ("math", "physics", "engine", "statistics", "measure", "io", "run", "study")
 # Of these folders a test links the files whose headers it includes, of the others all files.
 BY_HEADER = ("src/swirl/statistics", "src/swirl/measure")
-# The build of the tests treats warnings as errors (cmake/options.cmake); some of them need the optimiser.
+# The build of the tests treats warnings as errors (cmake/options.cmake); some of them need the
+# optimiser.
 WARNINGS = ["-O3", "-Wall", "-Wextra", "-Werror"]
-# The longest of these test programs needs a minute, compiled as above. A mutated one may run without end.
+# The longest of these test programs needs a minute, compiled as above. A mutated one may run
+# without end.
 CPU_SECONDS = 150
 
 
@@ -70,7 +100,8 @@ def text_of(path):
 
 @functools.lru_cache(maxsize=None)
 def included(path):
-    """All files of this project that `path` includes, directly or through others, and `path` itself."""
+    """All files of this project that `path` includes, directly or through others, and `path`
+    itself."""
     found, waiting = set(), [path]
     while waiting:
         path = waiting.pop()
@@ -78,7 +109,13 @@ def included(path):
             continue
         found.add(path)
         for name in re.findall(r'^#include "([^"]+)"', text_of(path), re.M):
-            folder = "src" if name.startswith("swirl/") else "bench" if name.startswith("baselines/") else "tests"
+            folder = (
+                "src"
+                if name.startswith("swirl/")
+                else "bench"
+                if name.startswith("baselines/")
+                else "tests"
+            )
             if name.startswith("../"):
                 folder = os.path.dirname(path)
             if name != "version.inc":  # made by the build
@@ -88,9 +125,12 @@ def included(path):
 
 @functools.lru_cache(maxsize=None)
 def sources_in(folder, ending):
-    return sorted(os.path.relpath(os.path.join(where, name), SOURCE)
-                  for where, _, names in os.walk(os.path.join(SOURCE, folder)) for name in names
-                  if name.endswith(ending))
+    return sorted(
+        os.path.relpath(os.path.join(where, name), SOURCE)
+        for where, _, names in os.walk(os.path.join(SOURCE, folder))
+        for name in names
+        if name.endswith(ending)
+    )
 
 
 @functools.lru_cache(maxsize=None)
@@ -99,38 +139,63 @@ def parts(test):
     needed, grew = [test], True
     while grew:
         headers = frozenset().union(*(included(part) for part in needed))
-        more = [cpp for folder in ("bench/baselines", *(f"src/swirl/{layer}" for layer in LAYERS))
-                if folder in BY_HEADER or any(header.startswith(folder) for header in headers)
-                for cpp in sources_in(folder, ".cpp") if cpp not in needed and
-                (folder not in BY_HEADER or re.sub(r"(_avx2|_avx512)?\.cpp$", ".hpp", cpp) in headers)]
+        more = [
+            cpp
+            for folder in ("bench/baselines", *(f"src/swirl/{layer}" for layer in LAYERS))
+            if folder in BY_HEADER or any(header.startswith(folder) for header in headers)
+            for cpp in sources_in(folder, ".cpp")
+            if cpp not in needed
+            and (
+                folder not in BY_HEADER or re.sub(r"(_avx2|_avx512)?\.cpp$", ".hpp", cpp) in headers
+            )
+        ]
         needed, grew = needed + more, bool(more)
     return tuple(needed)
 
 
 def tests_of(file, layers=LAYERS):
-    """The test files that include the file: those of its own layer first, then the one with its name."""
+    """The test files that include the file: those of its own layer first, then the one with its
+    name."""
     own, stem = file.split("/")[2], os.path.basename(file).split(".")[0]
-    tests = [test for layer in layers for test in sources_in(f"tests/{layer}", "_test.cpp")
-             if any(file in included(part) for part in parts(test))]
-    return sorted(tests, key=lambda test: (test.split("/")[1] != own, LAYERS.index(test.split("/")[1]),
-                                           os.path.basename(test) != stem + "_test.cpp",
-                                           file not in included(test), test))
+    tests = [
+        test
+        for layer in layers
+        for test in sources_in(f"tests/{layer}", "_test.cpp")
+        if any(file in included(part) for part in parts(test))
+    ]
+    return sorted(
+        tests,
+        key=lambda test: (
+            test.split("/")[1] != own,
+            LAYERS.index(test.split("/")[1]),
+            os.path.basename(test) != stem + "_test.cpp",
+            file not in included(test),
+            test,
+        ),
+    )
 
 
 @functools.lru_cache(maxsize=None)
 def version_of_compiler():
-    return subprocess.run([COMPILER, "--version"], capture_output=True, text=True, check=True).stdout
+    return subprocess.run(
+        [COMPILER, "--version"], capture_output=True, text=True, check=True
+    ).stdout
 
 
 class Builder:
-    """Compiles and runs test programs in a scratch folder, and caches the objects there or in another folder."""
+    """Compiles and runs test programs in a scratch folder, and caches the objects there or in
+    another folder."""
 
     def __init__(self, scratch, baseline_only=False, objects=None):
         self.scratch = scratch
         self.objects = objects or scratch
         os.makedirs(self.objects, exist_ok=True)
         self.compiled_by = repr([version_of_compiler(), FLAGS, baseline_only])
-        self.flags = FLAGS + [f"-I{scratch}", "-isystem/usr/include/hdf5/serial", '-DSWIRL_BUILD="mutated"']
+        self.flags = FLAGS + [
+            f"-I{scratch}",
+            "-isystem/usr/include/hdf5/serial",
+            '-DSWIRL_BUILD="mutated"',
+        ]
         if baseline_only:  # the vector width; the wide loops are the same source
             self.flags.append("-DSWIRL_BASELINE_ONLY=1")
         with open(os.path.join(scratch, "version.inc"), "w", encoding="utf-8") as file:
@@ -139,13 +204,18 @@ class Builder:
         self.baselines = {}
         self.headers = os.path.join(scratch, "headers.hpp")
         with open(self.headers, "w", encoding="utf-8") as file:
-            file.write("#include <gmock/gmock.h>\n#include <gtest/gtest.h>\n"
-                       "#include <rapidcheck.h>\n#include <rapidcheck/gtest.h>\n")
-        subprocess.run([COMPILER, *self.flags, "-x", "c++-header", self.headers, "-o",
-                        self.headers + ".gch"], check=True)
+            file.write(
+                "#include <gmock/gmock.h>\n#include <gtest/gtest.h>\n"
+                "#include <rapidcheck.h>\n#include <rapidcheck/gtest.h>\n"
+            )
+        subprocess.run(
+            [COMPILER, *self.flags, "-x", "c++-header", self.headers, "-o", self.headers + ".gch"],
+            check=True,
+        )
 
     def compiled(self, part, file, text, overlay):
-        """The object of `part`, compiled with `text` instead of `file`; None if it does not compile."""
+        """The object of `part`, compiled with `text` instead of `file`; None if it does not
+        compile."""
         seen = included(part)
         hashed = hashlib.sha256((self.compiled_by + part).encode())
         for path in sorted(seen):
@@ -162,16 +232,19 @@ class Builder:
         made = target + f".{os.getpid()}.{threading.get_ident()}"
         folders = [overlay, *(os.path.join(SOURCE, folder) for folder in ("src", "tests", "bench"))]
         search = ["-I" + folder for folder in folders]
-        result = subprocess.run([COMPILER, *self.flags, *wide, *headers, *search, "-c", where, "-o",
-                                 made], capture_output=True, text=True)
+        result = subprocess.run(
+            [COMPILER, *self.flags, *wide, *headers, *search, "-c", where, "-o", made],
+            capture_output=True,
+            text=True,
+        )
         if result.returncode != 0:
             return None
         os.replace(made, target)
         return target
 
     def run(self, test, file=None, text=None, overlay=""):
-        """Compiles and runs one test file. Returns "passed", "failed", "time" or "not compiled", and
-        the test or the file concerned."""
+        """Compiles and runs one test file. Returns "passed", "failed", "time" or "not compiled",
+        and the test or the file concerned."""
         objects = []
         for part in parts(test):
             if "_avx" in part and "-DSWIRL_BASELINE_ONLY=1" in self.flags:
@@ -180,14 +253,19 @@ class Builder:
             if made is None:
                 return "not compiled", part
             objects.append(made)
-        program = os.path.join(overlay or self.scratch,
-                               "program_" + os.path.basename(test).removesuffix(".cpp"))
+        program = os.path.join(
+            overlay or self.scratch, "program_" + os.path.basename(test).removesuffix(".cpp")
+        )
         subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", program], check=True)
         result = subprocess.run(
             [program, "--gtest_filter=-*.Slow_*:*.Soak_*", "--gtest_brief=1", "--gtest_fail_fast"],
-            capture_output=True, text=True, errors="replace",
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU,
-                                                  (CPU_SECONDS, CPU_SECONDS + 1)))
+            capture_output=True,
+            text=True,
+            errors="replace",
+            preexec_fn=lambda: resource.setrlimit(
+                resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS + 1)
+            ),
+        )
         os.remove(program)
         if result.returncode == -signal.SIGXCPU:
             return "time", test
@@ -201,14 +279,29 @@ class Builder:
             if test not in self.baselines:
                 self.baselines[test] = self.run(test)
                 if self.baselines[test][0] != "passed":
-                    print(f"warning: {test} fails without a mutation: {self.baselines[test]}", flush=True)
+                    print(
+                        f"warning: {test} fails without a mutation: {self.baselines[test]}",
+                        flush=True,
+                    )
         return self.baselines[test][0] == "passed"
 
     def is_rejected(self, file, overlay):
         """Whether the build of the tests stops at a warning about the mutated file."""
-        result = subprocess.run([COMPILER, *(flag for flag in self.flags if flag not in ("-w", "-O1")), *WARNINGS,
-                                 f"-I{overlay}", f"-I{SOURCE}/src", "-c", os.path.join(overlay, file.removeprefix("src/")),
-                                 "-o", os.devnull], capture_output=True, text=True)
+        result = subprocess.run(
+            [
+                COMPILER,
+                *(flag for flag in self.flags if flag not in ("-w", "-O1")),
+                *WARNINGS,
+                f"-I{overlay}",
+                f"-I{SOURCE}/src",
+                "-c",
+                os.path.join(overlay, file.removeprefix("src/")),
+                "-o",
+                os.devnull,
+            ],
+            capture_output=True,
+            text=True,
+        )
         return result.returncode != 0
 
     def judge(self, name, file, text, layers=LAYERS):
@@ -230,7 +323,8 @@ class Builder:
 
 
 def check_table():
-    """Each text before occurs exactly once, and the text after is another; the tests of each file can be found."""
+    """Each text before occurs exactly once, and the text after is another; the tests of each file
+    can be found."""
     wrong = 0
     for file in sorted({file for file, *_ in MUTATIONS}):
         if not tests_of(file):
@@ -245,8 +339,11 @@ def check_table():
 
 
 def run_chosen(options, pool):
-    chosen = [number for number, (file, *_) in enumerate(MUTATIONS) if options.part in file and
-              (not options.number or number in options.number)][::options.every]
+    chosen = [
+        number
+        for number, (file, *_) in enumerate(MUTATIONS)
+        if options.part in file and (not options.number or number in options.number)
+    ][:: options.every]
 
     def judge(builder, number):
         file, before, after, _, *equivalent = MUTATIONS[number]
@@ -257,15 +354,20 @@ def run_chosen(options, pool):
     count, wrong = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}, 0
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
         builder = Builder(scratch, objects=options.objects)
-        for number, (outcome, what) in zip(chosen, pool.map(functools.partial(judge, builder), chosen)):
+        for number, (outcome, what) in zip(
+            chosen, pool.map(functools.partial(judge, builder), chosen)
+        ):
             file, before, after, description, *equivalent = MUTATIONS[number]
             if outcome == "survived" and equivalent:
                 outcome, what = "equivalent", equivalent[0]
             elif outcome != "killed" or equivalent:
                 wrong += 1
             count[outcome] += 1
-            print(f"{number:3} {outcome:12} {file.removeprefix('src/')}: {description}"
-                  f"{' — ' + what if what else ''}", flush=True)
+            print(
+                f"{number:3} {outcome:12} {file.removeprefix('src/')}: {description}"
+                f"{' — ' + what if what else ''}",
+                flush=True,
+            )
             if outcome == "killed" and equivalent:
                 print("    error: the table declares it equivalent", flush=True)
     print(f"{len(chosen)} mutations: " + ", ".join(f"{n} {name}" for name, n in count.items()))
@@ -287,14 +389,19 @@ def run_random(options, pool):
 
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
         builder = Builder(scratch, baseline_only=True, objects=options.objects)
-        chosen = [(number, site) for number, site in
-                  enumerate(draw.drawn(SOURCE, options.random, options.seed))
-                  if options.part in site[0] and (not options.number or number in options.number)]
+        chosen = [
+            (number, site)
+            for number, site in enumerate(draw.drawn(SOURCE, options.random, options.seed))
+            if options.part in site[0] and (not options.number or number in options.number)
+        ]
         judged = pool.map(lambda numbered: judge(builder, *numbered), chosen)
         for (number, site), (outcome, what) in zip(chosen, judged):
             file, line, before, after, operator = site
             count[outcome] += 1
-            print(f"{number:3} {outcome:12} {file.removeprefix('src/')}:{line} ({operator}){' — ' * bool(what)}{what}")
+            print(
+                f"{number:3} {outcome:12} {file.removeprefix('src/')}:{line} "
+                f"({operator}){' — ' * bool(what)}{what}"
+            )
             if outcome == "survived":
                 print(f"    - {before.strip()}\n    + {after.strip()}")
             sys.stdout.flush()
@@ -303,13 +410,17 @@ def run_random(options, pool):
     if judged == 0:
         return 0
     score = count["killed"] / judged
-    print(f"score: {count['killed']} of {judged} noticed, {100 * score:.0f} % ± "
-          f"{100 * math.sqrt(score * (1 - score) / judged):.0f} %")
+    print(
+        f"score: {count['killed']} of {judged} noticed, {100 * score:.0f} % ± "
+        f"{100 * math.sqrt(score * (1 - score) / judged):.0f} %"
+    )
     return count["survived"] if options.score is None else 100 * score < options.score
 
 
 def seed_in(text):
-    return int(f"{datetime.datetime.now(datetime.timezone.utc):%Y%m%d}" if text == "today" else text)
+    return int(
+        f"{datetime.datetime.now(datetime.timezone.utc):%Y%m%d}" if text == "today" else text
+    )
 
 
 def main():
@@ -318,11 +429,23 @@ def main():
     call.add_argument("--number", type=int, nargs="*", help="numbers of the mutations to run")
     call.add_argument("--every", type=int, default=1, help="run one of so many mutations [1]")
     call.add_argument("--check", action="store_true", help="check the table only")
-    call.add_argument("--random", type=int, default=0, metavar="COUNT", help="draw this many mutations")
-    call.add_argument("--seed", type=seed_in, default=1, help="of the random mutations, or today: the date [1]")
-    call.add_argument("--score", type=float, metavar="PERCENT", help="random ones: fail only below this score")
-    call.add_argument("--own-layer", action="store_true", help="random ones: run the tests of the file's layer only")
-    call.add_argument("--objects", metavar="FOLDER", help="keep the compiled objects there, for the next call")
+    call.add_argument(
+        "--random", type=int, default=0, metavar="COUNT", help="draw this many mutations"
+    )
+    call.add_argument(
+        "--seed", type=seed_in, default=1, help="of the random mutations, or today: the date [1]"
+    )
+    call.add_argument(
+        "--score", type=float, metavar="PERCENT", help="random ones: fail only below this score"
+    )
+    call.add_argument(
+        "--own-layer",
+        action="store_true",
+        help="random ones: run the tests of the file's layer only",
+    )
+    call.add_argument(
+        "--objects", metavar="FOLDER", help="keep the compiled objects there, for the next call"
+    )
     call.add_argument("--jobs", type=int, default=1, help="mutations at a time [1]")
     options = call.parse_args()
     os.nice(max(0, 15 - os.nice(0)))

@@ -1,7 +1,7 @@
-"""Other processors give bitwise identical trajectories and averages: compiles the engine and the rotation
-rates for aarch64 (g++ and clang) and s390x (big-endian) with baseline vectors, runs them in an emulator, and
-compares hashes and averages with those of this machine. A control with fused multiplications must differ, so
-the comparison can fail."""
+"""Other processors give bitwise identical trajectories and averages: compiles the engine and the
+rotation rates for aarch64 (g++ and clang) and s390x (big-endian) with baseline vectors, runs them
+in an emulator, and compares hashes and averages with those of this machine. A control with fused
+multiplications must differ, so the comparison can fail."""
 
 import os
 import shutil
@@ -9,21 +9,32 @@ import sys
 import tempfile
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "engine"))
+sys.path.insert(
+    0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "engine")
+)
 from compilers_test import AVERAGES, HASHES, hashes
 
 # Compiler with the flags that choose its target, and emulator.
-BUILDS = {"aarch64, g++": (["aarch64-linux-gnu-g++"], "qemu-aarch64-static"),
-          "aarch64, clang": (["clang++-19", "--target=aarch64-linux-gnu"], "qemu-aarch64-static"),
-          "s390x, g++": (["s390x-linux-gnu-g++"], "qemu-s390x-static")}
+BUILDS = {
+    "aarch64, g++": (["aarch64-linux-gnu-g++"], "qemu-aarch64-static"),
+    "aarch64, clang": (["clang++-19", "--target=aarch64-linux-gnu"], "qemu-aarch64-static"),
+    "s390x, g++": (["s390x-linux-gnu-g++"], "qemu-s390x-static"),
+}
 
 
 class Architectures(unittest.TestCase):
     def there(self, build, contract):
         (compiler, *target), emulator = BUILDS[build]
         with tempfile.TemporaryDirectory() as folder:
-            return hashes(folder, compiler, "-O2", *target, f"-ffp-contract={contract}", "-static",
-                          emulator=[emulator]).splitlines()
+            return hashes(
+                folder,
+                compiler,
+                "-O2",
+                *target,
+                f"-ffp-contract={contract}",
+                "-static",
+                emulator=[emulator],
+            ).splitlines()
 
     def test_all_give_the_same_hashes_and_averages(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -42,7 +53,10 @@ class Architectures(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    for tool in ["g++", *(tool for words, emulator in BUILDS.values() for tool in (words[0], emulator))]:
+    for tool in [
+        "g++",
+        *(tool for words, emulator in BUILDS.values() for tool in (words[0], emulator)),
+    ]:
         if not shutil.which(tool):
             print("skipped: this test needs", tool)
             sys.exit(77)

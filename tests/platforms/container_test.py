@@ -1,5 +1,5 @@
-"""The instructions of packaging/container/Containerfile give an image whose program works. A folder with a new
-Debian takes the place of each base image, so no container engine is needed.
+"""The instructions of packaging/container/Containerfile give an image whose program works. A folder
+with a new Debian takes the place of each base image, so no container engine is needed.
 
 Compiles the program once; needs root, mmdebstrap and a mirror."""
 
@@ -23,7 +23,11 @@ CONTAINERFILE = os.path.join(SOURCE, "packaging", "container", "Containerfile")
 def instructions():
     """The instructions as (word, rest of the line)."""
     with open(CONTAINERFILE) as file:
-        lines = [line for line in file.read().replace("\\\n", " ").splitlines() if line and line[0] != "#"]
+        lines = [
+            line
+            for line in file.read().replace("\\\n", " ").splitlines()
+            if line and line[0] != "#"
+        ]
     return [tuple(line.split(None, 1)) for line in lines]
 
 
@@ -47,7 +51,8 @@ class Container(unittest.TestCase):
         return done.stdout
 
     def built(self, folder):
-        """Follows the instructions; returns the root folder of the last image and the entry point."""
+        """Follows the instructions; returns the root folder of the last image and the entry
+        point."""
         stages, root, entry = {}, None, None
         for word, rest in instructions():
             if word == "FROM":
@@ -76,10 +81,23 @@ class Container(unittest.TestCase):
             root, entry = self.built(folder)
             self.assertEqual(entry, ["swirl"])
             shutil.copy(os.path.join(SOURCE, "packaging", "test_installation.py"), root + "/data")
-            for command in (["python3", "test_installation.py"], ["python3", "test_installation.py", *entry]):
+            for command in (
+                ["python3", "test_installation.py"],
+                ["python3", "test_installation.py", *entry],
+            ):
                 self.assertIn("expected state hashes", self.run_in(root, *command, inside="/data"))
-            self.run_in(root, *entry, "paper", "--figure", "1b", "--quick", "--events", "2000", "--quiet",
-                        inside="/data")
+            self.run_in(
+                root,
+                *entry,
+                "paper",
+                "--figure",
+                "1b",
+                "--quick",
+                "--events",
+                "2000",
+                "--quiet",
+                inside="/data",
+            )
             self.assertTrue(os.path.exists(root + "/data/out/figure_1b.pdf"))
 
 

@@ -1,9 +1,10 @@
-"""Debian 13 works from ./swirl to ./check: in a fresh system the launcher installs the packages and builds with
-g++ 14 and HDF5 1.14. Runs, recordings, a resumed run and exports are those of the program of this build. The
-default tests pass, among them those that stop the program or let its system calls fail while it records.
+"""Debian 13 works from ./swirl to ./check: in a fresh system the launcher installs the packages and
+builds with g++ 14 and HDF5 1.14. Runs, recordings, a resumed run and exports are those of the
+program of this build. The default tests pass, among them those that stop the program or let its
+system calls fail while it records.
 
-Takes half an hour and 6 GB of storage; needs root, mmdebstrap and a mirror. SWIRL_DEBIAN13=FOLDER keeps the
-system in that folder, and reuses it with its last build."""
+Takes half an hour and 6 GB of storage; needs root, mmdebstrap and a mirror. SWIRL_DEBIAN13=FOLDER
+keeps the system in that folder, and reuses it with its last build."""
 
 import filecmp
 import json
@@ -18,8 +19,26 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(
 import debian_root
 from program import SOURCE, SWIRL
 
-RUN = ["run", "--discs", "20", "--mixture", "10:1.2", "--periods", "6", "--warmup", "2", "--seed", "3",
-       "--sides", "13", "--speed", "1.3", "--measure", "all", "--quiet"]
+RUN = [
+    "run",
+    "--discs",
+    "20",
+    "--mixture",
+    "10:1.2",
+    "--periods",
+    "6",
+    "--warmup",
+    "2",
+    "--seed",
+    "3",
+    "--sides",
+    "13",
+    "--speed",
+    "1.3",
+    "--measure",
+    "all",
+    "--quiet",
+]
 # These need a browser and npm's packages, which are the same programs on any system.
 NOT_THERE = r"^cli\.(lab|site|serve)_test$"
 NOT_COPIED = (".git", "build", "out", "node_modules", "generated", "__pycache__")
@@ -68,8 +87,9 @@ class Debian13(unittest.TestCase):
                     os.remove(os.path.join(target, name))
             for name in names:
                 here, there = os.path.join(folder, name), os.path.join(target, name)
-                if name not in NOT_COPIED and not (os.path.exists(there)
-                                                   and filecmp.cmp(here, there, shallow=False)):
+                if name not in NOT_COPIED and not (
+                    os.path.exists(there) and filecmp.cmp(here, there, shallow=False)
+                ):
                     shutil.copy(here, there)
 
     def in_debian13(self, *command):
@@ -83,7 +103,9 @@ class Debian13(unittest.TestCase):
         subprocess.run([SWIRL, *arguments], cwd=self.here, check=True, capture_output=True)
 
     def assert_same(self, name):
-        with open(os.path.join(self.here, name), "rb") as a, open(os.path.join(self.there, name), "rb") as b:
+        with open(os.path.join(self.here, name), "rb") as a, open(
+            os.path.join(self.there, name), "rb"
+        ) as b:
             self.assertTrue(a.read() == b.read(), name)
 
     def test_1_the_first_call_installs_and_builds(self):
@@ -93,31 +115,67 @@ class Debian13(unittest.TestCase):
             self.assertIn("building", first.stderr)
 
     def test_same_results_and_recordings(self):
-        versions = self.in_debian13("sh", "-c", "g++ -dumpversion; dpkg-query -W libhdf5-dev").stdout
+        versions = self.in_debian13(
+            "sh", "-c", "g++ -dumpversion; dpkg-query -W libhdf5-dev"
+        ).stdout
         self.assertTrue(versions.startswith("14"), versions)
         self.assertIn("1.14", versions)
 
         self.both(*RUN, "--json", "run.json", "--trajectory", "run.h5", "--log-events", "events.h5")
-        here, there = (result(os.path.join(folder, "run.json")) for folder in (self.here, self.there))
+        here, there = (
+            result(os.path.join(folder, "run.json")) for folder in (self.here, self.there)
+        )
         self.assertIn("state_hash", json.dumps(here))
         self.assertEqual(here, there)
 
         # There the run is interrupted and resumed, here it is not.
-        long_run = ["run", "--discs", "20", "--periods", "20000", "--frames", "1", "--quiet",
-                    "--trajectory", "two.h5", "--json", "two.json", "--checkpoint-every", "0.05"]
-        self.in_debian13("sh", "-c", '"$@" & until [ -e two.json.checkpoint ]; do sleep 0.01; done; '
-                                     'kill -TERM $!; wait $!; [ $? -eq 130 ]', "sh", "/root/swirl/swirl", *long_run)
+        long_run = [
+            "run",
+            "--discs",
+            "20",
+            "--periods",
+            "20000",
+            "--frames",
+            "1",
+            "--quiet",
+            "--trajectory",
+            "two.h5",
+            "--json",
+            "two.json",
+            "--checkpoint-every",
+            "0.05",
+        ]
+        self.in_debian13(
+            "sh",
+            "-c",
+            '"$@" & until [ -e two.json.checkpoint ]; do sleep 0.01; done; '
+            "kill -TERM $!; wait $!; [ $? -eq 130 ]",
+            "sh",
+            "/root/swirl/swirl",
+            *long_run,
+        )
         self.assertFalse(result(os.path.join(self.there, "two.json"))["complete"])
         self.in_debian13("/root/swirl/swirl", *long_run, "--resume")
         subprocess.run([SWIRL, *long_run], cwd=self.here, check=True, capture_output=True)
-        here, there = (result(os.path.join(folder, "two.json")) for folder in (self.here, self.there))
+        here, there = (
+            result(os.path.join(folder, "two.json")) for folder in (self.here, self.there)
+        )
         for key in ("complete", "events", "rotation", "state_hash"):
             self.assertEqual(here[key], there[key])
 
         # Each system reads the recordings of the other.
         for name in ("run", "two"):
-            self.both("export", name + ".h5", "--format", "table", "--out", name + ".csv", "--quiet", "--stride",
-                      "7")
+            self.both(
+                "export",
+                name + ".h5",
+                "--format",
+                "table",
+                "--out",
+                name + ".csv",
+                "--quiet",
+                "--stride",
+                "7",
+            )
             self.assert_same(name + ".csv")
         shutil.copy(os.path.join(self.here, "run.h5"), os.path.join(self.there, "other.h5"))
         shutil.copy(os.path.join(self.there, "run.h5"), os.path.join(self.here, "other.h5"))
@@ -131,10 +189,25 @@ class Debian13(unittest.TestCase):
         for locking in ("TRUE", "FALSE", "BEST_EFFORT"):
             with self.subTest(locking):
                 name = locking + ".h5"
-                self.in_debian13("env", "HDF5_USE_FILE_LOCKING=" + locking, "/root/swirl/swirl", "run",
-                                 "--events", "1000", "--quiet", "--trajectory", name)
-                self.in_debian13("env", "HDF5_USE_FILE_LOCKING=" + locking, "/root/swirl/swirl", "verify",
-                                 name, "--quiet")
+                self.in_debian13(
+                    "env",
+                    "HDF5_USE_FILE_LOCKING=" + locking,
+                    "/root/swirl/swirl",
+                    "run",
+                    "--events",
+                    "1000",
+                    "--quiet",
+                    "--trajectory",
+                    name,
+                )
+                self.in_debian13(
+                    "env",
+                    "HDF5_USE_FILE_LOCKING=" + locking,
+                    "/root/swirl/swirl",
+                    "verify",
+                    name,
+                    "--quiet",
+                )
 
     def test_the_default_tests_pass(self):
         done = self.in_debian13("/root/swirl/check", "--fast", "-E", NOT_THERE)

@@ -6,8 +6,9 @@ import re
 import shutil
 import subprocess
 
-# /proc lets a program find the libraries next to it; Python's pty needs pseudo-terminals; POSIX shared memory
-# needs /dev/shm; Slurm needs the control groups in /sys. The mounts exist for one command only.
+# /proc lets a program find the libraries next to it; Python's pty needs pseudo-terminals; POSIX
+# shared memory needs /dev/shm; Slurm needs the control groups in /sys. The mounts exist for one
+# command only.
 MOUNTS = """
 mount -t proc proc "$0/proc"
 mount --rbind /sys "$0/sys"
@@ -19,8 +20,11 @@ mount --bind "$0/dev/pts/ptmx" "$0/dev/ptmx"
 
 def mirror():
     """The mirror of Debian that this system uses, or None."""
-    done = subprocess.run(["apt-get", "indextargets", "--format", "$(SITE)", "Created-By: Packages"],
-                          capture_output=True, text=True)
+    done = subprocess.run(
+        ["apt-get", "indextargets", "--format", "$(SITE)", "Created-By: Packages"],
+        capture_output=True,
+        text=True,
+    )
     sites = [site for site in done.stdout.split() if re.search(r"/debian/?$", site)]
     return sites[0] if sites else None
 
@@ -39,14 +43,25 @@ def what_is_missing():
 
 def create(release, folder, packages=()):
     include = ["--include=" + ",".join(packages)] if packages else []
-    subprocess.run(["mmdebstrap", "--quiet", "--variant=minbase", *include, release, folder, mirror()],
-                   check=True, stdin=subprocess.DEVNULL)
+    subprocess.run(
+        ["mmdebstrap", "--quiet", "--variant=minbase", *include, release, folder, mirror()],
+        check=True,
+        stdin=subprocess.DEVNULL,
+    )
 
 
 def run(folder, *command, inside="/root", **variables):
     """Runs a command in a folder of that Debian, with a small environment and `variables`."""
     script = f'set -e{MOUNTS}exec chroot "$0" /bin/sh -c \'cd "$0" && exec "$@"\' "$@"'
-    return subprocess.run(["unshare", "--mount", "sh", "-c", script, folder, inside, *command],
-                          stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                          env={"PATH": "/usr/sbin:/usr/bin:/sbin:/bin", "LC_ALL": "C.UTF-8", "HOME": "/root",
-                               **variables})
+    return subprocess.run(
+        ["unshare", "--mount", "sh", "-c", script, folder, inside, *command],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        env={
+            "PATH": "/usr/sbin:/usr/bin:/sbin:/bin",
+            "LC_ALL": "C.UTF-8",
+            "HOME": "/root",
+            **variables,
+        },
+    )

@@ -1,5 +1,5 @@
-"""math, physics, engine, statistics and measure build for Windows with mingw-w64, and a program that uses
-them links. The program does not run here: there is no Windows."""
+"""math, physics, engine, statistics and measure build for Windows with mingw-w64, and a program
+that uses them links. The program does not run here: there is no Windows."""
 
 import os
 import shutil
@@ -8,8 +8,9 @@ import sys
 import tempfile
 import unittest
 
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
 COMPILER = "x86_64-w64-mingw32-g++-posix"
 PROJECT = """cmake_minimum_required(VERSION 3.22)
 set(CMAKE_SYSTEM_NAME Windows)
@@ -28,12 +29,17 @@ target_link_libraries(program PRIVATE swirl::engine swirl::measure swirl::statis
 class Windows(unittest.TestCase):
     def test_a_program_of_the_library_links(self):
         with tempfile.TemporaryDirectory() as folder:
-            shutil.copy(os.path.join(SOURCE, "examples", "custom_measurement.cpp"),
-                        os.path.join(folder, "program.cpp"))
+            shutil.copy(
+                os.path.join(SOURCE, "examples", "custom_measurement.cpp"),
+                os.path.join(folder, "program.cpp"),
+            )
             with open(os.path.join(folder, "CMakeLists.txt"), "w") as file:
                 file.write(PROJECT % (COMPILER, SOURCE, SOURCE))
             build = os.path.join(folder, "build")
-            for command in (["cmake", "-S", folder, "-B", build, "-G", "Ninja"], ["cmake", "--build", build]):
+            for command in (
+                ["cmake", "-S", folder, "-B", build, "-G", "Ninja"],
+                ["cmake", "--build", build],
+            ):
                 done = subprocess.run(command, capture_output=True, text=True)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             with open(os.path.join(build, "program.exe"), "rb") as file:

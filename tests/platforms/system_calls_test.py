@@ -1,6 +1,6 @@
-"""The branches of io/system_calls.cpp for macOS and for other POSIX systems compile, and pass the tests of
-the Linux branches. The folder macos/ has the declarations of macOS, and Linux functions behind them.
-Nothing here ran on a Mac."""
+"""The branches of io/system_calls.cpp for macOS and for other POSIX systems compile, and pass the
+tests of the Linux branches. The folder macos/ has the declarations of macOS, and Linux functions
+behind them. Nothing here ran on a Mac."""
 
 import os
 import re
@@ -10,21 +10,31 @@ import sys
 import tempfile
 import unittest
 
-SOURCE = os.environ.get("SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(
-    os.path.abspath(__file__)))))
+SOURCE = os.environ.get(
+    "SWIRL_SOURCE", os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+)
 MACOS = os.path.join(SOURCE, "tests", "platforms", "macos")
 NO_LINUX = ["-U__linux__", "-U__gnu_linux__"]
 BRANCHES = {
     "POSIX": NO_LINUX,
-    "macOS": [*NO_LINUX, "-D__APPLE__", "-isystem", MACOS, "-include", os.path.join(MACOS, "macos.h")],
+    "macOS": [
+        *NO_LINUX,
+        "-D__APPLE__",
+        "-isystem",
+        MACOS,
+        "-include",
+        os.path.join(MACOS, "macos.h"),
+    ],
 }
 HOME = "src/swirl/io/system_calls.cpp"
 # Functions, constants and files that only Linux has, or only some systems.
-NOT_PORTABLE = (r"renameat2|RENAME_NOREPLACE|getrandom|getentropy|fdatasync|syncfs|sync_file_range|"
-                r"sched_[gs]etaffinity|cpu_set_t|memfd_create|SOCK_CLOEXEC|SOCK_NONBLOCK|MSG_NOSIGNAL|pipe2|"
-                r"accept4|O_TMPFILE|O_PATH|posix_fadvise|fallocate|prctl|epoll_\w+|eventfd|signalfd|"
-                r"timerfd_\w+|inotify_\w+|splice|sendfile|copy_file_range|gettid|secure_getenv|get_nprocs|"
-                r"getauxval|program_invocation_name|strerrorname_np|mremap|environ")
+NOT_PORTABLE = (
+    r"renameat2|RENAME_NOREPLACE|getrandom|getentropy|fdatasync|syncfs|sync_file_range|"
+    r"sched_[gs]etaffinity|cpu_set_t|memfd_create|SOCK_CLOEXEC|SOCK_NONBLOCK|MSG_NOSIGNAL|pipe2|"
+    r"accept4|O_TMPFILE|O_PATH|posix_fadvise|fallocate|prctl|epoll_\w+|eventfd|signalfd|"
+    r"timerfd_\w+|inotify_\w+|splice|sendfile|copy_file_range|gettid|secure_getenv|get_nprocs|"
+    r"getauxval|program_invocation_name|strerrorname_np|mremap|environ"
+)
 
 
 def code_of(path):
@@ -48,8 +58,11 @@ class SystemCalls(unittest.TestCase):
         for path in files - {HOME}:
             code = code_of(path)
             self.assertEqual(re.findall(rf"\b(?:{NOT_PORTABLE})\b", code), [], path)
-            self.assertEqual(re.findall(r'"/proc/[^"]*"|<linux/[^>]*>|<sys/(?:prctl|random|epoll)\.h>', code),
-                             [], path)
+            self.assertEqual(
+                re.findall(r'"/proc/[^"]*"|<linux/[^>]*>|<sys/(?:prctl|random|epoll)\.h>', code),
+                [],
+                path,
+            )
             # Large pages are a hint to Linux.
             if path != "src/swirl/engine/aligned_memory.hpp":
                 self.assertNotRegex(code, r"__linux__|__APPLE__|madvise", path)
@@ -62,21 +75,43 @@ class SystemCalls(unittest.TestCase):
         def compiled(source, name, *flags):
             output = os.path.join(folder, name)
             language = ["-std=gnu11"] if source.endswith(".c") else ["-std=c++20"]
-            subprocess.run([compiler.replace("g++", "gcc") if source.endswith(".c") else compiler,
-                            *language, "-Wall", "-Wextra", "-Werror", f"-I{SOURCE}/src",
-                            f"-I{SOURCE}/tests", *flags, "-c", os.path.join(SOURCE, source), "-o", output],
-                           check=True)
+            subprocess.run(
+                [
+                    compiler.replace("g++", "gcc") if source.endswith(".c") else compiler,
+                    *language,
+                    "-Wall",
+                    "-Wextra",
+                    "-Werror",
+                    f"-I{SOURCE}/src",
+                    f"-I{SOURCE}/tests",
+                    *flags,
+                    "-c",
+                    os.path.join(SOURCE, source),
+                    "-o",
+                    output,
+                ],
+                check=True,
+            )
             return output
+
         with tempfile.TemporaryDirectory() as folder:
             tests = compiled("tests/io/system_calls_test.cpp", "tests.o")
             macos = compiled("tests/platforms/macos/macos.c", "macos.o", *BRANCHES["macOS"][3:])
             for branch, flags in BRANCHES.items():
                 with self.subTest(branch):
-                    calls = compiled(HOME, "calls.o", "-Wpedantic", "-Wconversion", "-Wno-sign-conversion",
-                                     *flags)
+                    calls = compiled(
+                        HOME,
+                        "calls.o",
+                        "-Wpedantic",
+                        "-Wconversion",
+                        "-Wno-sign-conversion",
+                        *flags,
+                    )
                     program = os.path.join(folder, "program")
-                    subprocess.run([compiler, tests, calls, macos, "-lgtest", "-lgtest_main", "-o", program],
-                                   check=True)
+                    subprocess.run(
+                        [compiler, tests, calls, macos, "-lgtest", "-lgtest_main", "-o", program],
+                        check=True,
+                    )
                     done = subprocess.run([program], capture_output=True, text=True)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                     self.assertIn("[  PASSED  ] 6 tests", done.stdout)

@@ -1,4 +1,5 @@
-"""Values with errors: their text is that of the report, and their arithmetic keeps the errors right."""
+"""Values with errors: their text is that of the report, and their arithmetic keeps the errors
+right."""
 
 import copy
 import json
@@ -16,7 +17,9 @@ from scenes import command, options
 @pytest.fixture(scope="module")
 def runs():
     """Three independent runs."""
-    return [swirl.run(discs=24, periods=40, warmup=4, seed=seed, measure="slip") for seed in (1, 2, 3)]
+    return [
+        swirl.run(discs=24, periods=40, warmup=4, seed=seed, measure="slip") for seed in (1, 2, 3)
+    ]
 
 
 def rate(result):
@@ -26,15 +29,26 @@ def rate(result):
 def test_the_text_is_that_of_the_report(runs):
     scene = {"discs": 24, "periods": 40, "warmup": 4, "seed": 1}
     report = command("run", *options(scene), "--measure", "slip").stdout
-    said, = re.findall(r"ϖ/Ω = (.*)", report)
+    (said,) = re.findall(r"ϖ/Ω = (.*)", report)
     assert str(runs[0].rotation) == f"ϖ/Ω = {said}" == f"ϖ/Ω = {swirl.with_error(*rate(runs[0]))}"
     assert str(rate(runs[0])) == f"{said} Ω"
-    assert re.search(rf"slip\.cluster +{re.escape(str(runs[0].measured['slip']['cluster']))}\s", report)
+    assert re.search(
+        rf"slip\.cluster +{re.escape(str(runs[0].measured['slip']['cluster']))}\s", report
+    )
 
 
-@pytest.mark.parametrize("mean, error, text", [
-    (-0.0369, 0.00123, "−0.0369 ± 0.0012"), (36.42, 0.3, "36.4 ± 0.3"), (0.5, math.nan, "0.5"), (math.nan, 1, "n/a"),
-    (1234.5, 21.0, "1234 ± 21"), (1.0, 0.0, "1"), (-2e-10, 1e-10, "−2e-10 ± 1e-10")])
+@pytest.mark.parametrize(
+    "mean, error, text",
+    [
+        (-0.0369, 0.00123, "−0.0369 ± 0.0012"),
+        (36.42, 0.3, "36.4 ± 0.3"),
+        (0.5, math.nan, "0.5"),
+        (math.nan, 1, "n/a"),
+        (1234.5, 21.0, "1234 ± 21"),
+        (1.0, 0.0, "1"),
+        (-2e-10, 1e-10, "−2e-10 ± 1e-10"),
+    ],
+)
 def test_an_error_decides_the_digits(mean, error, text):
     assert swirl.with_error(mean, error) == str(swirl.Estimate(mean, error)) == text
 
@@ -61,7 +75,10 @@ def test_exact_numbers_scale_and_shift(runs):
     e = rate(runs[0])
     for two in (2, 2.0, np.float64(2), np.int32(2)):
         for scaled in (two * e, e * two, e / (1 / two), -e * -two):
-            assert (scaled.mean, scaled.error) == (2 * e.mean, 2 * e.error) and scaled.unit == e.unit
+            assert (scaled.mean, scaled.error) == (
+                2 * e.mean,
+                2 * e.error,
+            ) and scaled.unit == e.unit
         for shifted in (e + two, two + e, e - -two, two - -e):
             assert (shifted.mean, shifted.error) == (e.mean + 2, e.error)
     assert (-e).error == e.error and +e == e and (3 - e).mean == 3 - e.mean
@@ -95,8 +112,11 @@ def correlated(runs, tmp_path):
     yield a, copy.deepcopy(a)
     yield a + b, b
     yield a, rate(longer)
-    yield a * 1.0, swirl.Estimate(*longer.measured["<lambda>"]["value"], unit="Ω",
-                                  _sources=longer.measured["<lambda>"]["value"]._sources)
+    yield a * 1.0, swirl.Estimate(
+        *longer.measured["<lambda>"]["value"],
+        unit="Ω",
+        _sources=longer.measured["<lambda>"]["value"]._sources,
+    )
     swirl.run(discs=24, periods=40, warmup=4, seed=1, trajectory=tmp_path / "a.h5", frames=200)
     yield a, rate(swirl.analyse(swirl.Trajectory(tmp_path / "a.h5")))
     frames = swirl.Simulation(discs=24).sample(periods=5)
@@ -107,7 +127,9 @@ def test_correlated_errors_are_not_propagated(runs, tmp_path):
     pairs = 0
     for a, b in correlated(runs, tmp_path):
         for combine in (lambda: a + b, lambda: a - b, lambda: b - a):
-            with pytest.raises(ValueError, match="of the same run, so their errors are correlated.\nhint: "):
+            with pytest.raises(
+                ValueError, match="of the same run, so their errors are correlated.\nhint: "
+            ):
                 combine()
         pairs += 1
     assert pairs == 10
@@ -145,4 +167,8 @@ def test_the_zero_crossing_is_that_of_a_search():
     search = swirl.crossing(min_discs=34, max_discs=42, tolerance=5, events=2000)
     points = search.to_pandas()
     found = swirl.zero_crossing(points["discs"], points["mean"], points["error"])
-    assert (found["discs"], found["error"], found["verdict"]) == (search.discs, search.error, search.verdict)
+    assert (found["discs"], found["error"], found["verdict"]) == (
+        search.discs,
+        search.error,
+        search.verdict,
+    )

@@ -18,8 +18,9 @@ def test_notebook_runs(file, tmp_path, monkeypatch):
     monkeypatch.setenv("MPLCONFIGDIR", str(tmp_path / "matplotlib"))
     book = nbformat.read(file, as_version=4)
     nbformat.validate(book)
-    NotebookClient(book, kernel_name="python3",
-                   resources={"metadata": {"path": str(tmp_path)}}).execute()
+    NotebookClient(
+        book, kernel_name="python3", resources={"metadata": {"path": str(tmp_path)}}
+    ).execute()
     for cell in book.cells:
         for output in cell.get("outputs", []):
             assert output.get("name") != "stderr", output.get("text")

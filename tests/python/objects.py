@@ -6,7 +6,12 @@ import swirl
 
 SCENE = {"discs": 16, "periods": 12, "warmup": 2}
 MEASURE = ["density", "flow", "profile", "slip", "wall"]
-COLUMNS = {"frame": [0, 0, 1, 1], "particle": [0, 1, 0, 1], "x": [0.0, 3.0, 0.0, 3.0], "y": [0.0, 0.0, 0.1, 0.1]}
+COLUMNS = {
+    "frame": [0, 0, 1, 1],
+    "particle": [0, 1, 0, 1],
+    "x": [0.0, 3.0, 0.0, 3.0],
+    "y": [0.0, 0.0, 0.1, 0.1],
+}
 DISH = {"omega": 1.0, "container_radius": 8.0}
 
 
@@ -17,7 +22,9 @@ def speeds(snapshot):
 def public_classes():
     """Without exceptions, which are like those of Python."""
     kinds = [getattr(swirl, name) for name in swirl.__all__]
-    return [kind for kind in kinds if isinstance(kind, type) and not issubclass(kind, BaseException)]
+    return [
+        kind for kind in kinds if isinstance(kind, type) and not issubclass(kind, BaseException)
+    ]
 
 
 def instances(folder):
@@ -33,12 +40,30 @@ def instances(folder):
     video.quality = {"discs": 2}
     table = swirl.sweep(folder / "sweep", discs=[8, 12], events=2000)
     objects = [
-        sim, sim.snapshot(), next(sim.events(1)), frames, result, result.rotation, result.rotation.mean_by_time,
-        result.measured["slip"], result.measured["density"].table, result.series, result.events,
-        swirl.crossing(min_discs=34, max_discs=42, tolerance=5, events=2000), swirl.analyse(frames, ["density"]),
-        result.measured["speeds"]["value"], swirl.parameters()[0], swirl.EventKind.disc_disc,
-        swirl.Lab("<html></html>", 100), swirl.Trajectory(file), tracks, recording, video,
-        swirl.over_seeds([0.1, 0.2]), swirl.compare_points([(8, 4.4, 20), (12, 4.0, 20)], table)]
+        sim,
+        sim.snapshot(),
+        next(sim.events(1)),
+        frames,
+        result,
+        result.rotation,
+        result.rotation.mean_by_time,
+        result.measured["slip"],
+        result.measured["density"].table,
+        result.series,
+        result.events,
+        swirl.crossing(min_discs=34, max_discs=42, tolerance=5, events=2000),
+        swirl.analyse(frames, ["density"]),
+        result.measured["speeds"]["value"],
+        swirl.parameters()[0],
+        swirl.EventKind.disc_disc,
+        swirl.Lab("<html></html>", 100),
+        swirl.Trajectory(file),
+        tracks,
+        recording,
+        video,
+        swirl.over_seeds([0.1, 0.2]),
+        swirl.compare_points([(8, 4.4, 20), (12, 4.0, 20)], table),
+    ]
     found = {type(one): one for one in objects}
     missing = [kind.__name__ for kind in public_classes() if kind not in found]
     assert not missing, f"add an object of {', '.join(missing)}"

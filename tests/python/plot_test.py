@@ -54,8 +54,9 @@ def test_maps_show_the_tables(result):
     for by in ("time", "event"):
         axes = swirl.plot.density(result, by=by)
         (mesh,) = [c for c in axes.collections if c.get_array() is not None]
-        np.testing.assert_array_equal(np.ravel(mesh.get_array()),
-                                      result.measured["density"][f"by_{by}"].ravel())
+        np.testing.assert_array_equal(
+            np.ravel(mesh.get_array()), result.measured["density"][f"by_{by}"].ravel()
+        )
         axes.figure.canvas.draw()
     axes = swirl.plot.density(result.measured["density"])
     swirl.plot.flow(result.measured["flow"].table).figure.canvas.draw()

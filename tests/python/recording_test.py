@@ -45,8 +45,11 @@ def test_frames_equal_those_of_the_run(file):
 
 
 def estimates_of(measured):
-    return {f"{name}.{row}": estimate for name, found in measured.items()
-            for row, estimate in found.rows.items()}
+    return {
+        f"{name}.{row}": estimate
+        for name, found in measured.items()
+        for row, estimate in found.rows.items()
+    }
 
 
 def test_analysis_equals_that_of_the_command_line(file):
@@ -60,7 +63,7 @@ def test_analysis_equals_that_of_the_command_line(file):
         measurement, row = name.split(".")
         value = theirs["measured"][measurement][row]
         mean = value["mean"] if isinstance(value, dict) else value
-        assert (math.isnan(estimate.mean) if mean is None else estimate.mean == mean), name
+        assert math.isnan(estimate.mean) if mean is None else estimate.mean == mean, name
         compared += 1
     assert compared > 20
 
@@ -77,7 +80,7 @@ def test_frames_have_the_pinned_and_resident_discs(file):
     found = swirl.analyse(t, ["pinned", "residence"]).measured
     assert np.nanmean(frames.pinned) == pytest.approx(found["pinned"].rows["share"].mean, rel=1e-12)
     sampled = swirl.Simulation(discs=20, seed=3).sample(3, 511)
-    np.testing.assert_array_equal(sampled.pinned[7:-7], frames.pinned[7:3 * 511 - 7])
+    np.testing.assert_array_equal(sampled.pinned[7:-7], frames.pinned[7 : 3 * 511 - 7])
     np.testing.assert_array_equal(sampled[20].pinned, sampled.pinned[20])
     assert np.isnan(swirl.Simulation(discs=20, seed=3).sample(3, 30).resident).all()
 
@@ -96,7 +99,9 @@ def test_custom_measurement_of_a_recording_agrees_with_the_run(file):
             return snapshot.position.std()
 
     of_run = swirl.run(**SCENE, measure=[Spread]).measured["Spread"].estimate
-    of_frames = swirl.analyse(swirl.Trajectory(file), [Spread], warmup=2).measured["Spread"].estimate
+    of_frames = (
+        swirl.analyse(swirl.Trajectory(file), [Spread], warmup=2).measured["Spread"].estimate
+    )
     assert of_frames.mean == pytest.approx(of_run.mean, rel=1e-9)
     assert of_frames.error == pytest.approx(of_run.error, rel=1e-6)
 
@@ -106,7 +111,9 @@ def test_sampled_frames_can_be_analysed(file):
     found = swirl.analyse(sim.sample(12), ["density", "slip"], warmup=2)
     theirs = swirl.analyse(swirl.Trajectory(file), ["density", "slip"], warmup=2)
     # The recording has one more frame: the first one of a further period.
-    assert found.rotation.mean_by_time.mean == pytest.approx(theirs.rotation.mean_by_time.mean, rel=1e-3)
+    assert found.rotation.mean_by_time.mean == pytest.approx(
+        theirs.rotation.mean_by_time.mean, rel=1e-3
+    )
     square = [[2, 2], [-2, 2], [-2, -2], [2, -2]]
     custom = swirl.Simulation(discs=20, path=square)
     found = swirl.analyse(custom.sample(30), "all", warmup=5)
@@ -156,26 +163,50 @@ def test_threads_share_one_recording(file):
 
 # --- tracks -------------------------------------------------------------------------------------
 
-SCALE = dict(omega=2 * math.pi / 11.866071, container_radius=8.6, amplitude=1.892, scale=20.0,
-             camera_fps=511 / 11.866071, centre=(400.0, 300.0))
+SCALE = dict(
+    omega=2 * math.pi / 11.866071,
+    container_radius=8.6,
+    amplitude=1.892,
+    scale=20.0,
+    camera_fps=511 / 11.866071,
+    centre=(400.0, 300.0),
+)
 
 
 @pytest.fixture(scope="module")
 def table(file):
     """Tracks that trackpy would find in a video of the run."""
-    rows = [(k, i, 400 + 20 * x, 300 - 20 * y) for k, s in enumerate(swirl.Trajectory(file)[:3000:1]
-                                                                    .position)
-            for i, (x, y) in enumerate(s)]
+    rows = [
+        (k, i, 400 + 20 * x, 300 - 20 * y)
+        for k, s in enumerate(swirl.Trajectory(file)[:3000:1].position)
+        for i, (x, y) in enumerate(s)
+    ]
     return pandas.DataFrame(rows, columns=["frame", "particle", "x", "y"])
 
 
 def test_tracks_equal_those_of_the_command_line(table, tmp_path):
     tracks = swirl.Tracks(table, **SCALE)
     table.to_csv(tmp_path / "tracks.csv", index=False)
-    done = command("measure", tmp_path / "tracks.csv", "--measure", "density,slip,profile", "--json", "-",
-                   "--camera-fps", repr(SCALE["camera_fps"]), "--scale", 20, "--omega",
-                   repr(SCALE["omega"]), "--centre", "400,300", "--amplitude", 1.892,
-                   "--container-radius", 8.6)
+    done = command(
+        "measure",
+        tmp_path / "tracks.csv",
+        "--measure",
+        "density,slip,profile",
+        "--json",
+        "-",
+        "--camera-fps",
+        repr(SCALE["camera_fps"]),
+        "--scale",
+        20,
+        "--omega",
+        repr(SCALE["omega"]),
+        "--centre",
+        "400,300",
+        "--amplitude",
+        1.892,
+        "--container-radius",
+        8.6,
+    )
     assert done.returncode == 0, done.stderr
     theirs = json.loads(done.stdout)
     found = swirl.analyse(tracks, ["density", "slip", "profile"])
@@ -191,15 +222,21 @@ def test_tracks_equal_those_of_the_command_line(table, tmp_path):
 def test_order_of_rows_does_not_matter(table):
     shuffled = table.sample(frac=1, random_state=1)
     for k in (0, 17, 400):
-        np.testing.assert_array_equal(swirl.Tracks(shuffled, **SCALE)[k].position,
-                                      swirl.Tracks(table, **SCALE)[k].position)
+        np.testing.assert_array_equal(
+            swirl.Tracks(shuffled, **SCALE)[k].position, swirl.Tracks(table, **SCALE)[k].position
+        )
 
 
-@pytest.mark.parametrize("change, kind, said", [
-    (dict(omega=0), ValueError, "omega is 0"), (dict(scale=float("nan")), ValueError, "scale is nan"),
-    (dict(container_radius="8"), TypeError, "container_radius is '8'"),
-    (dict(centre=(0, float("inf"))), ValueError, "centre"), (dict(amplitude=-1), ValueError, "amplitude"),
-])
+@pytest.mark.parametrize(
+    "change, kind, said",
+    [
+        (dict(omega=0), ValueError, "omega is 0"),
+        (dict(scale=float("nan")), ValueError, "scale is nan"),
+        (dict(container_radius="8"), TypeError, "container_radius is '8'"),
+        (dict(centre=(0, float("inf"))), ValueError, "centre"),
+        (dict(amplitude=-1), ValueError, "amplitude"),
+    ],
+)
 def test_invalid_scales_are_rejected(table, change, kind, said):
     with pytest.raises(kind, match=said):
         swirl.Tracks(table, **{**SCALE, **change})
@@ -209,9 +246,11 @@ def test_invalid_tables_are_rejected(table):
     few = table[:60].copy()
     with pytest.raises(ValueError, match="the columns frame, particle, x and y"):
         swirl.Tracks(few.drop(columns="x"), **SCALE)
-    for column, value, said in (("x", float("nan"), "no finite position"),
-                                ("particle", 0, "appears twice in frame 0"),
-                                ("frame", 0.5, "whole numbers")):
+    for column, value, said in (
+        ("x", float("nan"), "no finite position"),
+        ("particle", 0, "appears twice in frame 0"),
+        ("frame", 0.5, "whole numbers"),
+    ):
         bad = few.copy().astype(float)
         bad.loc[:3, column] = value
         with pytest.raises(ValueError, match=said):
@@ -226,10 +265,14 @@ def test_invalid_tables_are_rejected(table):
         swirl.Tracks(np.zeros((4, 4)), **SCALE)
 
 
-@pytest.mark.parametrize("change, said", [
-    (dict(scale=25.0), "scale 25 is too large"), (dict(phase=180), "phase that fits best is phase 0"),
-    (dict(container_radius=12.0), "hardly ever come near the wall"),
-])
+@pytest.mark.parametrize(
+    "change, said",
+    [
+        (dict(scale=25.0), "scale 25 is too large"),
+        (dict(phase=180), "phase that fits best is phase 0"),
+        (dict(container_radius=12.0), "hardly ever come near the wall"),
+    ],
+)
 def test_tracks_that_do_not_fit_the_container_are_rejected(table, change, said):
     with pytest.raises(swirl.Failure, match=said):
         swirl.Tracks(table, **{**SCALE, **change})
@@ -238,7 +281,7 @@ def test_tracks_that_do_not_fit_the_container_are_rejected(table, change, said):
 
 
 def test_remarks_report_filled_gaps_and_noise(table):
-    noise, = swirl.Tracks(table, **SCALE).remarks
+    (noise,) = swirl.Tracks(table, **SCALE).remarks
     assert noise.startswith("Positions have a noise of ")
     gap = table[~((table.particle == 3) & table.frame.isin([100, 101]))]
     mended, noise = swirl.Tracks(gap, **SCALE).remarks
@@ -256,9 +299,10 @@ def test_tracks_of_swirl_track_need_no_scale(table, tmp_path):
     np.testing.assert_array_equal(read[200].radius, np.ones(20))
     good = json.dumps({"camera": camera})
     wrong = ["{}", "[" * 100_000, good.replace('"clockwise"', '"clockwise": true, "clockwise"')]
-    wrong += [json.dumps({"camera": {**camera, name: value}})
-              for name, value in (("phase", None), ("clockwise", 1), ("centre", [1.0]),
-                                  ("scale", "20"))]
+    wrong += [
+        json.dumps({"camera": {**camera, name: value}})
+        for name, value in (("phase", None), ("clockwise", 1), ("centre", [1.0]), ("scale", "20"))
+    ]
     for text in wrong:
         (tmp_path / "tracks.camera.json").write_text(text)
         with pytest.raises(swirl.Failure, match="is not a valid file of `swirl track`"):
@@ -271,5 +315,6 @@ def test_tracks_of_swirl_track_need_no_scale(table, tmp_path):
         swirl.Tracks.read(tmp_path / "tracks.csv")
     semicolons = [line.replace(",", ";").replace(".", ",") for line in text]
     (tmp_path / "tracks.csv").write_text("\n".join(semicolons) + "\n", encoding="utf-8-sig")
-    np.testing.assert_array_equal(swirl.Tracks.read(tmp_path / "tracks.csv")[200].position,
-                                  read[200].position)
+    np.testing.assert_array_equal(
+        swirl.Tracks.read(tmp_path / "tracks.csv")[200].position, read[200].position
+    )

@@ -1,4 +1,5 @@
-"""docs/reference/python.md is generated from the public signatures and docstrings. This rewrites it:
+"""docs/reference/python.md is generated from the public signatures and docstrings. This rewrites
+it:
 
     SWIRL_WRITE_DOCS=1 ctest --test-dir build/tests -R python.reference
 """
@@ -25,9 +26,13 @@ and [parameters.md](parameters.md) lists the parameters of runs.
 
 def stub_docstrings():
     """The docstrings of the compiled classes, which are in the stub file."""
-    with open(os.path.join(os.path.dirname(swirl.__file__), "_engine.pyi"), encoding="utf-8") as file:
+    with open(
+        os.path.join(os.path.dirname(swirl.__file__), "_engine.pyi"), encoding="utf-8"
+    ) as file:
         tree = ast.parse(file.read())
-    return {node.name: ast.get_docstring(node) for node in tree.body if isinstance(node, ast.ClassDef)}
+    return {
+        node.name: ast.get_docstring(node) for node in tree.body if isinstance(node, ast.ClassDef)
+    }
 
 
 def row(name, docstring, is_call=False):
@@ -42,9 +47,19 @@ def reference():
         # An internal class may have the name of a public one (Recording).
         compiled = name in stubs and thing is getattr(swirl._engine, name)
         if compiled or callable(thing):
-            rows.append(row(f"swirl.{name}", stubs[name] if compiled else inspect.getdoc(thing), not inspect.isclass(thing)))
+            rows.append(
+                row(
+                    f"swirl.{name}",
+                    stubs[name] if compiled else inspect.getdoc(thing),
+                    not inspect.isclass(thing),
+                )
+            )
     for name, thing in sorted(vars(swirl.plot).items()):
-        if inspect.isfunction(thing) and not name.startswith("_") and thing.__module__ == "swirl.plot":
+        if (
+            inspect.isfunction(thing)
+            and not name.startswith("_")
+            and thing.__module__ == "swirl.plot"
+        ):
             rows.append(row(f"swirl.plot.{name}", inspect.getdoc(thing), True))
     return HEAD + "".join(rows)
 

@@ -43,8 +43,11 @@ def test_what_the_result_says_is_what_the_json_says():
     assert pickle.loads(pickle.dumps(r)).to_json() == r.to_json()
 
 
-@pytest.mark.parametrize("copied", [lambda found: pickle.loads(pickle.dumps(found)), copy.deepcopy],
-                         ids=["pickled", "copied"])
+@pytest.mark.parametrize(
+    "copied",
+    [lambda found: pickle.loads(pickle.dumps(found)), copy.deepcopy],
+    ids=["pickled", "copied"],
+)
 def test_measurements_can_be_sent_to_another_process(copied):
     r = swirl.run(discs=12, events=20000, measure="all")
     again = copied(r)
@@ -70,9 +73,15 @@ def test_saved_result_can_be_verified(tmp_path):
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-@pytest.mark.parametrize("scene", [dict(discs=45, events=60000, seed=4), dict(preset="experiment", discs=24, periods=20),
-                                   dict(discs=24, periods=20, mixture="25%:0.75", direction="clockwise")],
-                         ids=["discs", "spheres", "mixture"])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        dict(discs=45, events=60000, seed=4),
+        dict(preset="experiment", discs=24, periods=20),
+        dict(discs=24, periods=20, mixture="25%:0.75", direction="clockwise"),
+    ],
+    ids=["discs", "spheres", "mixture"],
+)
 def test_every_measurement_equals_the_tables_of_the_command_line(scene, tmp_path):
     r = swirl.run(**scene, measure="all")
     done = command("run", *options(scene), "--measure", "all", "--tables", tmp_path, "--quiet")
@@ -87,8 +96,9 @@ def test_every_measurement_equals_the_tables_of_the_command_line(scene, tmp_path
             theirs = rows.pop(f"{name}.{row}")
             for column in ("mean", "error"):
                 ours = getattr(estimate, column)
-                assert (math.isnan(ours) if theirs[column] == "" else ours == float(theirs[column])), \
-                    (name, row)
+                assert (
+                    math.isnan(ours) if theirs[column] == "" else ours == float(theirs[column])
+                ), (name, row)
             assert estimate.unit == theirs["unit"]
         for table_name, table in measured.tables.items():
             file = f"{name}.{table_name}" if table_name else name
@@ -119,14 +129,38 @@ def test_density_map_has_axes():
 
 
 BAD = [
-    dict(discs=0), dict(discs=-5), dict(discs=2.5), dict(discs="many"), dict(mu=-1), dict(mu="nan"),
-    dict(mu_disc=-0.1), dict(container_radius=2, discs=40), dict(container_radius=0.5),
-    dict(restitution=1.5), dict(inertia="iron"), dict(mixture="12"), dict(mixture=(12, 0)),
-    dict(mixture=(60, 1.2)), dict(path="square"), dict(path="circle", sides=7), dict(sides=2),
-    dict(events=10, periods=3), dict(periods=3, warmup=3), dict(warmup="long"), dict(seed=-1),
-    dict(seed=2**64), dict(speed=1, amplitude=1, period=1), dict(period=0), dict(amplitude=1e9),
-    dict(preset="other"), dict(body="sphere", path="circle"), dict(body="sphere", discs=65),
-    dict(floor="sliding", path="circle"), dict(contact_duration=100), dict(events=0), dict(events=1e20),
+    dict(discs=0),
+    dict(discs=-5),
+    dict(discs=2.5),
+    dict(discs="many"),
+    dict(mu=-1),
+    dict(mu="nan"),
+    dict(mu_disc=-0.1),
+    dict(container_radius=2, discs=40),
+    dict(container_radius=0.5),
+    dict(restitution=1.5),
+    dict(inertia="iron"),
+    dict(mixture="12"),
+    dict(mixture=(12, 0)),
+    dict(mixture=(60, 1.2)),
+    dict(path="square"),
+    dict(path="circle", sides=7),
+    dict(sides=2),
+    dict(events=10, periods=3),
+    dict(periods=3, warmup=3),
+    dict(warmup="long"),
+    dict(seed=-1),
+    dict(seed=2**64),
+    dict(speed=1, amplitude=1, period=1),
+    dict(period=0),
+    dict(amplitude=1e9),
+    dict(preset="other"),
+    dict(body="sphere", path="circle"),
+    dict(body="sphere", discs=65),
+    dict(floor="sliding", path="circle"),
+    dict(contact_duration=100),
+    dict(events=0),
+    dict(events=1e20),
 ]
 
 
@@ -143,45 +177,77 @@ def test_errors_equal_those_of_the_command_line(bad):
     assert "--" not in str(raised.value)
 
 
-@pytest.mark.parametrize("bad, sentence", [
-    (dict(disks=3), "no parameter 'disks'.\nhint: did you mean 'discs'\\?$"),
-    (dict(flavour=3), "no parameter 'flavour'.\nhint: swirl.parameters\\(\\) lists all parameters."),
-    (dict(mu=True), "mu is True, but it must be a number or a text."),
-    (dict(mu=[0.1, 0.5]), "mu is \\[0.1, 0.5\\], but it must be one number or text"),
-    (dict(mu=1j), "mu is 1j, but"), (dict(mu=object), "mu is <class 'object'>, but"),
-    (dict(mu=b"1"), "mu is b'1', but"), (dict(mu=np.array([1.0])), "mu is array"),
-    (dict(measure=[3]), "measure contains 3, but each element must be a name"),
-])
+@pytest.mark.parametrize(
+    "bad, sentence",
+    [
+        (dict(disks=3), "no parameter 'disks'.\nhint: did you mean 'discs'\\?$"),
+        (
+            dict(flavour=3),
+            "no parameter 'flavour'.\nhint: swirl.parameters\\(\\) lists all parameters.",
+        ),
+        (dict(mu=True), "mu is True, but it must be a number or a text."),
+        (dict(mu=[0.1, 0.5]), "mu is \\[0.1, 0.5\\], but it must be one number or text"),
+        (dict(mu=1j), "mu is 1j, but"),
+        (dict(mu=object), "mu is <class 'object'>, but"),
+        (dict(mu=b"1"), "mu is b'1', but"),
+        (dict(mu=np.array([1.0])), "mu is array"),
+        (dict(measure=[3]), "measure contains 3, but each element must be a name"),
+    ],
+)
 def test_wrong_types_and_names_are_rejected(bad, sentence):
     with pytest.raises(TypeError, match=sentence):
         swirl.run(events=10, **bad)
 
 
 def test_unknown_measurements_are_rejected():
-    with pytest.raises(ValueError, match="measure has 'dens' in its list, but each must be one of: d"):
+    with pytest.raises(
+        ValueError, match="measure has 'dens' in its list, but each must be one of: d"
+    ):
         swirl.run(events=10, measure="dens")
 
 
 def test_numpy_scalars_are_accepted():
-    r = swirl.run(discs=np.int64(7), mu=np.float64(0.25), events=np.float32(1000), seed=np.uint64(3))
+    r = swirl.run(
+        discs=np.int64(7), mu=np.float64(0.25), events=np.float32(1000), seed=np.uint64(3)
+    )
     assert r.state_hash == swirl.run(discs=7, mu=0.25, events=1000, seed=3).state_hash
 
 
 def test_none_counts_as_not_given():
-    assert swirl.run(discs=7, mu=None, events=1000).state_hash == \
-        swirl.run(discs=7, events=1000).state_hash
+    assert (
+        swirl.run(discs=7, mu=None, events=1000).state_hash
+        == swirl.run(discs=7, events=1000).state_hash
+    )
 
 
 anything = st.one_of(
-    st.none(), st.booleans(), st.integers(), st.floats(), st.text(max_size=8), st.complex_numbers(),
-    st.binary(max_size=4), st.tuples(st.integers(), st.floats()), st.lists(st.integers(), max_size=3),
-    st.sampled_from([1, 2, 5, 0.5, "1e2", "12:1.3", "circle", "ring", (3, 0.7), np.float64(2)]))
+    st.none(),
+    st.booleans(),
+    st.integers(),
+    st.floats(),
+    st.text(max_size=8),
+    st.complex_numbers(),
+    st.binary(max_size=4),
+    st.tuples(st.integers(), st.floats()),
+    st.lists(st.integers(), max_size=3),
+    st.sampled_from([1, 2, 5, 0.5, "1e2", "12:1.3", "circle", "ring", (3, 0.7), np.float64(2)]),
+)
 
 
-@settings(max_examples=300, deadline=None, derandomize=True, database=None,
-          suppress_health_check=list(HealthCheck))
-@given(st.dictionaries(st.sampled_from([p.name for p in swirl.parameters()] + ["nonsense", "", "--mu"]),
-                       anything, max_size=4))
+@settings(
+    max_examples=300,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+)
+@given(
+    st.dictionaries(
+        st.sampled_from([p.name for p in swirl.parameters()] + ["nonsense", "", "--mu"]),
+        anything,
+        max_size=4,
+    )
+)
 def test_random_arguments_run_or_are_rejected_with_a_message(given_):
     length = {} if {"events", "periods"} & set(given_) else {"events": 50}
     # Larger values are valid, but the run would take too long.
@@ -200,6 +266,7 @@ def test_docstring_lists_every_parameter():
     for p in swirl.parameters():
         assert f"    {p.name}: " in swirl.run.__doc__
     import inspect
+
     assert {"discs", "mu", "seed", "measure"} <= set(inspect.signature(swirl.run).parameters)
 
 
@@ -305,8 +372,9 @@ def test_progress_is_reported_and_may_raise():
         swirl.run(discs=48, events=1e9, progress=stop)
 
 
-# Another thread sends the signal after a hundred steps of its own, while the call works: the engine does not block
-# other threads. A call that missed the signal would not end, or would end without an exception.
+# Another thread sends the signal after a hundred steps of its own, while the call works: the engine
+# does not block other threads. A call that missed the signal would not end, or would end without an
+# exception.
 INTERRUPTED = """
 import swirl, os, signal, threading, time
 def interrupt():
@@ -323,26 +391,44 @@ except KeyboardInterrupt as raised:
 """
 
 
-@pytest.mark.parametrize("call, found, said", [
-    ("swirl.run(discs=48, events=1e12)", "raised.result.events.total > 1000, raised.result.complete",
-     "Interrupted True False"),
-    ("swirl.run(discs=7000000, container_radius=3300)", "1", "KeyboardInterrupt 1"),
-    ("sim = swirl.Simulation(discs=48); sim.advance(periods=1e9)",
-     "sim.periods > 0.1, sim.step(10)['time'][0] > 0", "KeyboardInterrupt True True"),
-    ("sim = swirl.Simulation(discs=48); sim.step(10**6); sim.advance(events=1e12)",
-     "sim.counts.total > 10**5", "KeyboardInterrupt True"),
-])
+@pytest.mark.parametrize(
+    "call, found, said",
+    [
+        (
+            "swirl.run(discs=48, events=1e12)",
+            "raised.result.events.total > 1000, raised.result.complete",
+            "Interrupted True False",
+        ),
+        ("swirl.run(discs=7000000, container_radius=3300)", "1", "KeyboardInterrupt 1"),
+        (
+            "sim = swirl.Simulation(discs=48); sim.advance(periods=1e9)",
+            "sim.periods > 0.1, sim.step(10)['time'][0] > 0",
+            "KeyboardInterrupt True True",
+        ),
+        (
+            "sim = swirl.Simulation(discs=48); sim.step(10**6); sim.advance(events=1e12)",
+            "sim.counts.total > 10**5",
+            "KeyboardInterrupt True",
+        ),
+    ],
+)
 def test_ctrl_c_interrupts(call, found, said):
-    done = subprocess.run([sys.executable, "-B", "-c", INTERRUPTED.format(call=call, found=found)],
-                          capture_output=True, text=True)  # no call ends by itself
+    done = subprocess.run(
+        [sys.executable, "-B", "-c", INTERRUPTED.format(call=call, found=found)],
+        capture_output=True,
+        text=True,
+    )  # no call ends by itself
     assert done.returncode == 0, done.stderr
     assert done.stdout.split() == said.split()
 
 
 def test_recordings_equal_those_of_the_command_line(tmp_path):
     import h5py
+
     scene = dict(discs=12, events=20000)
-    ours = swirl.run(**scene, trajectory=tmp_path / "ours.h5", frames=20, event_log=tmp_path / "e.h5")
+    ours = swirl.run(
+        **scene, trajectory=tmp_path / "ours.h5", frames=20, event_log=tmp_path / "e.h5"
+    )
     done = command("run", *options(scene), "--trajectory", tmp_path / "theirs.h5", "--frames", 20)
     assert done.returncode == 0, done.stderr
     with h5py.File(tmp_path / "ours.h5") as a, h5py.File(tmp_path / "theirs.h5") as b:
@@ -393,9 +479,11 @@ def test_the_fluctuations_of_a_series_are_estimates():
     tau = r.autocorrelation_times["rigid_by_time"]
     assert found["correlation_time"].mean == tau
     assert found["n_variance"].mean == pytest.approx(
-        16 * values.var() / (1 - tau / len(values)), rel=1e-10)
+        16 * values.var() / (1 - tau / len(values)), rel=1e-10
+    )
     assert found["binder"].mean == pytest.approx(
-        1 - ((values - values.mean()) ** 4).mean() / (3 * values.var() ** 2), abs=1e-12)
+        1 - ((values - values.mean()) ** 4).mean() / (3 * values.var() ** 2), abs=1e-12
+    )
     assert set(r.fluctuations) >= {"mean_by_time", "spin", "energy"}
 
 

@@ -1,5 +1,5 @@
-"""swirl.Simulation: states bitwise identical to the command line, custom discs and paths, copies, views,
-threads, and rejection of invalid input."""
+"""swirl.Simulation: states bitwise identical to the command line, custom discs and paths, copies,
+views, threads, and rejection of invalid input."""
 
 import copy
 import gc
@@ -47,8 +47,12 @@ def test_state_is_that_of_the_command_line_for_every_way_of_advancing(scene):
         np.testing.assert_array_equal(rows[name][:4000], [getattr(e, name) for e in seen])
 
 
-RAMPS = ["mu=0.2:1:0.2@2..10", "amplitude=1.5:2.5@1..9;mu_wall=1:0.1@3..8",
-         "period=12:8@2..10;restitution=1:0.9@2..4", "amplitude=0:2@3..4"]
+RAMPS = [
+    "mu=0.2:1:0.2@2..10",
+    "amplitude=1.5:2.5@1..9;mu_wall=1:0.1@3..8",
+    "period=12:8@2..10;restitution=1:0.9@2..4",
+    "amplitude=0:2@3..4",
+]
 
 
 @pytest.mark.parametrize("ramp", RAMPS)
@@ -60,7 +64,9 @@ def test_a_ramp_is_that_of_the_command_line_for_every_way_of_advancing(ramp):
     sims[0].advance(periods=12)
     # Observed, copied and pickled within and between periods.
     while sims[1].periods < 11.5:
-        sims[1].sample(0.37, 20) if sims[1].clock / sims[1].period < 0.6 else sims[1].advance(periods=0.21)
+        sims[1].sample(0.37, 20) if sims[1].clock / sims[1].period < 0.6 else sims[1].advance(
+            periods=0.21
+        )
         sims[1].snapshot().m_frame()
         sims[1] = pickle.loads(pickle.dumps(copy.copy(sims[1])))
     sims[1].advance_to(12)
@@ -95,7 +101,7 @@ def test_times_in_a_ramp_of_the_period_are_sums_of_its_periods():
         rows = sim.step(1)
         while rows["whole_periods"][-1] == sim.whole_periods:
             rows = sim.step(1)
-        assert rows["time"][-1] == pytest.approx(sum(lengths[:whole + 1]), abs=1e-9)
+        assert rows["time"][-1] == pytest.approx(sum(lengths[: whole + 1]), abs=1e-9)
     # Half a period of 6 from here, and 2.5 of them by time.
     sim.advance(time=15)
     assert sim.periods == pytest.approx(7.5)
@@ -128,8 +134,9 @@ def test_events_describe_collisions():
     assert np.all(collisions["i"] < collisions["j"]) and np.all(np.diff(rows["time"]) >= 0)
     np.testing.assert_allclose(np.hypot(rows["normal_x"], rows["normal_y"])[rows["kind"] < 2], 1)
     # Coulomb's law with a friction coefficient of 1.
-    assert np.all(np.abs(collisions["tangential_impulse"]) <=
-                  collisions["normal_impulse"] * (1 + 1e-12))
+    assert np.all(
+        np.abs(collisions["tangential_impulse"]) <= collisions["normal_impulse"] * (1 + 1e-12)
+    )
     counts = sim.counts
     assert counts.disc_disc == len(collisions) and counts.total == 5000
     for event in sim.events(200):
@@ -149,23 +156,38 @@ def test_advancing_by_periods_time_and_events():
     assert sim.time == pytest.approx(3.25 * sim.period, abs=1e-9)
     sim.advance_to(7, 1.5)
     assert (sim.whole_periods, sim.clock) == (7, 1.5)
-    for whole_periods, clock, message in ((6, 0, "cannot go back"), (7, 1.25, "cannot go back"),
-                                          (8, 12, "below the period"), (8, float("nan"), "finite")):
+    for whole_periods, clock, message in (
+        (6, 0, "cannot go back"),
+        (7, 1.25, "cannot go back"),
+        (8, 12, "below the period"),
+        (8, float("nan"), "finite"),
+    ):
         with pytest.raises(ValueError, match=message):
             sim.advance_to(whole_periods, clock)
     for wrong in (dict(), dict(periods=1, time=1), dict(events=1, periods=1)):
         with pytest.raises(TypeError, match="exactly one of periods, time and events"):
             sim.advance(**wrong)
-    for wrong in (dict(periods=-1), dict(periods=float("inf")), dict(events=-1), dict(events=0.5),
-                  dict(time=float("nan")), dict(time=1e300)):
+    for wrong in (
+        dict(periods=-1),
+        dict(periods=float("inf")),
+        dict(events=-1),
+        dict(events=0.5),
+        dict(time=float("nan")),
+        dict(time=1e300),
+    ):
         with pytest.raises(ValueError):
             sim.advance(**wrong)
     with pytest.raises(TypeError):
         sim.advance(periods="2")
     with pytest.raises(TypeError, match="swirl.run"):
         swirl.Simulation(discs=4, events=100)
-    for too_much in (lambda: sim.step(10**9), lambda: sim.sample(1e6), lambda: sim.sample(1, 10**7),
-                     lambda: sim.step(-1), lambda: sim.sample(-1)):
+    for too_much in (
+        lambda: sim.step(10**9),
+        lambda: sim.sample(1e6),
+        lambda: sim.sample(1, 10**7),
+        lambda: sim.step(-1),
+        lambda: sim.sample(-1),
+    ):
         with pytest.raises(ValueError):
             too_much()
     with pytest.raises(ValueError, match="periods is -1, but it must be 0 or more"):
@@ -184,8 +206,16 @@ def test_samples_equal_snapshots():
         assert frames.time[k] == pytest.approx((start + k / 40) * b.period, abs=1e-9)
         b.advance_to(int(frames.whole_periods[k]), frames.clock[k])
         s = b.snapshot()
-        for name in ("position", "velocity", "angle", "spin", "container_centre", "clock", "time",
-                     "container_velocity"):
+        for name in (
+            "position",
+            "velocity",
+            "angle",
+            "spin",
+            "container_centre",
+            "clock",
+            "time",
+            "container_velocity",
+        ):
             np.testing.assert_array_equal(getattr(frames, name)[k], getattr(s, name), name)
             np.testing.assert_array_equal(getattr(frames[k], name), getattr(s, name), name)
     assert a.periods == pytest.approx(start + 1.5)
@@ -204,8 +234,9 @@ def test_m_frame_agrees_with_its_definition():
     down = s.container_centre / np.hypot(*s.container_centre)
     across = np.array([-down[1], down[0]])
     relative = s.position - s.container_centre
-    np.testing.assert_allclose(m.position, np.stack([relative @ across, -(relative @ down)], axis=1),
-                               atol=1e-12)
+    np.testing.assert_allclose(
+        m.position, np.stack([relative @ across, -(relative @ down)], axis=1), atol=1e-12
+    )
     np.testing.assert_allclose(m.spin, s.spin - sim.omega, atol=1e-12)
     np.testing.assert_array_equal(m.container_centre, [0, 0])
 
@@ -216,8 +247,9 @@ def test_rotation_of_a_rigid_rotation():
     sim = swirl.Simulation(position=position, amplitude=1.892)
     turning = 0.3 * sim.omega
     around = position - [1.892, 0]
-    sim = swirl.Simulation(position=position,
-                           velocity=turning * np.stack([-around[:, 1], around[:, 0]], axis=1))
+    sim = swirl.Simulation(
+        position=position, velocity=turning * np.stack([-around[:, 1], around[:, 0]], axis=1)
+    )
     for found in sim.snapshot().rotation():
         assert found == pytest.approx(0.3, rel=1e-12)
 
@@ -228,8 +260,15 @@ def test_rotation_of_a_rigid_rotation():
 def test_simulation_from_a_snapshot_continues_identically():
     first = swirl.Simulation(discs=40, mixture=(10, 1.3), seed=8)
     s = first.snapshot()
-    again = swirl.Simulation(position=s.position, velocity=s.velocity, spin=s.spin, angle=s.angle,
-                             radius=s.radius, mass=s.mass, inertia=s.inertia)
+    again = swirl.Simulation(
+        position=s.position,
+        velocity=s.velocity,
+        spin=s.spin,
+        angle=s.angle,
+        radius=s.radius,
+        mass=s.mass,
+        inertia=s.inertia,
+    )
     first.advance(events=5000)
     again.advance(events=5000)
     assert first.state_hash == again.state_hash
@@ -244,8 +283,9 @@ def test_custom_polygon_equals_the_papers():
         sim.advance(periods=0.5)
     # Speeds are computed from differences of vertices and times, so rounding errors may differ.
     for sim in (again, even):
-        np.testing.assert_allclose(sim.snapshot().container_centre, first.snapshot().container_centre,
-                                   atol=1e-12)
+        np.testing.assert_allclose(
+            sim.snapshot().container_centre, first.snapshot().container_centre, atol=1e-12
+        )
 
 
 def test_the_polygon_as_an_array_gives_the_bitwise_identical_run(tmp_path):
@@ -253,7 +293,9 @@ def test_the_polygon_as_an_array_gives_the_bitwise_identical_run(tmp_path):
         first = swirl.Simulation(**parameters)
         start = first.container_path()
         points = np.vstack([start, [first.period, *start[0, 1:]]])
-        np.savetxt(tmp_path / "p.csv", points, delimiter=",", header="t,x,y", comments="", fmt="%.17g")
+        np.savetxt(
+            tmp_path / "p.csv", points, delimiter=",", header="t,x,y", comments="", fmt="%.17g"
+        )
         for path in (points, points.tolist(), str(tmp_path / "p.csv")):
             again = swirl.Simulation(**parameters, path=path)
             back = pickle.loads(pickle.dumps(again))
@@ -279,7 +321,10 @@ def test_a_run_takes_a_path_sizes_and_states_as_arrays():
     np.testing.assert_array_equal(spheres.snapshot().mass, [1, 0.125])
     start = swirl.Simulation(discs=9).snapshot()
     states = np.column_stack((start.position, start.velocity, start.spin))
-    assert swirl.run(initial=states, events=1000).state_hash == swirl.run(discs=9, events=1000).state_hash
+    assert (
+        swirl.run(initial=states, events=1000).state_hash
+        == swirl.run(discs=9, events=1000).state_hash
+    )
     with pytest.raises(TypeError, match="columns x, y, vx, vy and spin"):
         swirl.run(initial=states[:, :4])
     with pytest.raises(ValueError, match="initial and position are both given"):
@@ -304,11 +349,15 @@ def test_particles_that_cannot_spin():
     assert np.all(now.spin[now.can_spin == 0] == 0) and np.all(now.spin[now.can_spin == 1] != 0)
     again = pickle.loads(pickle.dumps(share))
     np.testing.assert_array_equal(again.snapshot().can_spin, now.can_spin)
-    given = swirl.Simulation(position=[[-3, 0], [2, 0]], velocity=[[1, 0.3], [0, 0]], cannot_spin=[1, 0])
+    given = swirl.Simulation(
+        position=[[-3, 0], [2, 0]], velocity=[[1, 0.3], [0, 0]], cannot_spin=[1, 0]
+    )
     given.step(200)
     np.testing.assert_array_equal(given.snapshot().can_spin, [0, 1])
     assert given.snapshot().spin[0] == 0 and given.snapshot().spin[1] != 0
-    np.testing.assert_array_equal(pickle.loads(pickle.dumps(given)).snapshot().spin, given.snapshot().spin)
+    np.testing.assert_array_equal(
+        pickle.loads(pickle.dumps(given)).snapshot().spin, given.snapshot().spin
+    )
 
 
 def test_radii_without_masses_are_of_one_material():
@@ -323,8 +372,9 @@ def test_container_follows_a_custom_path():
     square = np.array([[2, 2], [-2, 2], [-2, -2], [2, -2]], dtype=float)
     sim = swirl.Simulation(discs=20, path=square, period=16)
     frames = sim.sample(periods=3, per_period=16)
-    np.testing.assert_allclose(frames.container_centre[:5], [[2, 2], [1, 2], [0, 2], [-1, 2], [-2, 2]],
-                               atol=1e-12)
+    np.testing.assert_allclose(
+        frames.container_centre[:5], [[2, 2], [1, 2], [0, 2], [-1, 2], [-2, 2]], atol=1e-12
+    )
     inside = np.linalg.norm(frames.position - frames.container_centre[:, None], axis=2)
     assert inside.max() <= sim.container_radius - 1 + 1e-9
     back = pickle.loads(pickle.dumps(sim))
@@ -336,16 +386,52 @@ def test_container_follows_a_custom_path():
 
 numbers = st.one_of(st.floats(), st.integers(-9, 9), st.sampled_from([0.0, 1.0, 1e-7, 1e300]))
 arrays = st.one_of(
-    st.lists(st.tuples(numbers, numbers).map(list), max_size=4), st.lists(numbers, max_size=4), numbers,
-    st.text(max_size=3), st.none(), st.lists(st.sampled_from([[1, 0], [4, 0], [-3, 2]]), unique_by=str),
-    st.sampled_from([np.zeros((2, 2, 2)), np.array([[1, 0]], dtype="U3"), np.zeros((3, 2), dtype=bool),
-                     np.ma.masked_invalid([[np.nan, 1]]), np.zeros(0), object()]))
+    st.lists(st.tuples(numbers, numbers).map(list), max_size=4),
+    st.lists(numbers, max_size=4),
+    numbers,
+    st.text(max_size=3),
+    st.none(),
+    st.lists(st.sampled_from([[1, 0], [4, 0], [-3, 2]]), unique_by=str),
+    st.sampled_from(
+        [
+            np.zeros((2, 2, 2)),
+            np.array([[1, 0]], dtype="U3"),
+            np.zeros((3, 2), dtype=bool),
+            np.ma.masked_invalid([[np.nan, 1]]),
+            np.zeros(0),
+            object(),
+        ]
+    ),
+)
 
 
-@settings(max_examples=150, deadline=None, derandomize=True, database=None,
-          suppress_health_check=list(HealthCheck))
-@given(st.dictionaries(st.sampled_from(["position", "velocity", "angle", "spin", "radius", "mass",
-                                        "inertia", "path", "path_times", "mu", "discs"]), arrays))
+@settings(
+    max_examples=150,
+    deadline=None,
+    derandomize=True,
+    database=None,
+    suppress_health_check=list(HealthCheck),
+)
+@given(
+    st.dictionaries(
+        st.sampled_from(
+            [
+                "position",
+                "velocity",
+                "angle",
+                "spin",
+                "radius",
+                "mass",
+                "inertia",
+                "path",
+                "path_times",
+                "mu",
+                "discs",
+            ]
+        ),
+        arrays,
+    )
+)
 def test_random_arguments_are_accepted_or_rejected(given_):
     if isinstance(given_.get("discs"), (int, float)) and given_["discs"] > 60:
         given_["discs"] = 60
@@ -361,45 +447,69 @@ def test_random_arguments_are_accepted_or_rejected(given_):
 two = [[1.0, 0.0], [4.0, 0.0]]
 
 
-@pytest.mark.parametrize("wrong, message", [
-    (dict(position=[[0, 0], [1, 0]]), "discs 0 and 1 overlap: their distance is 1, but their radii add up to 2"),
-    (dict(position=[[0, 0], [20, 0]]), "disc 1 at \\(20, 0\\) extends 10.5 beyond the container"),
-    (dict(position=[[0, 0, 0]]), "position has shape 1 × 3, but it must be N × 2"),
-    (dict(position=3), "position has shape one number, but"), (dict(path=3), "path has shape one number, but"),
-    (dict(position=[]), "position has shape 0, but it must be N × 2"),
-    (dict(position=np.zeros((0, 2))), "at least one disc"),
-    (dict(position=[[0, float("nan")]]), "y of disc 0 is nan"),
-    (dict(position=two, velocity=[[1, 1]]), "velocity has shape 1 × 2, but it must be 2 × 2"),
-    (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "vx of disc 1 is inf"),
-    (dict(position=two, spin=[1, 2, 3]), "spin has shape 3, but it must be 2 numbers"),
-    (dict(position=two, radius=[1, -1]), "radius of disc 1 is -1"),
-    (dict(position=two, mass=[1, 0]), "mass of disc 1 is 0"),
-    (dict(position=two, inertia=[1, 0]), "inertia of disc 1 is 0"),
-    (dict(position=two, cannot_spin=[0, 0.5]), "can_spin of disc 1 is 0.5"),
-    (dict(position=two, cannot_spin=1, spin=[0, 2]), "disc 1 has the spin 2, but it cannot spin"),
-    (dict(position=two, discs=2), "discs and position are both given"),
-    (dict(velocity=two), "velocity is given for each disc, but position is not"),
-    (dict(position=two, body="sphere"), "only for discs without a floor"),
-    (dict(path=[[0, 0]]), "at least two"), (dict(path=[[1, 1], [1, 1]]), "the same point"),
-    (dict(path=[[0, 0], [1, 0], [1, 0]]), "consecutive vertices must differ"),
-    (dict(path=two, path_times=[0, 20]), "times must increase"),
-    (dict(path=two, path_times=[1, 2]), "begins with 1"),
-    (dict(path=two, path_times=[0, 1, 2]), "path_times has shape 3, but"),
-    (dict(path=[[0, 0], [1e9, 0]]), "path contains 1000000000"), (dict(position=two, spin=1e200), "spin of disc 0 is 1e"),
-    (dict(path=two, amplitude=2), "both define the path"),
-    (dict(path_times=[0, 1]), "path_times is given, but path is not"),
-    (dict(path="spiral"), "path is 'spiral'"), (dict(position=two, mu=-1), "mu is '-1'"),
-])
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        (
+            dict(position=[[0, 0], [1, 0]]),
+            "discs 0 and 1 overlap: their distance is 1, but their radii add up to 2",
+        ),
+        (
+            dict(position=[[0, 0], [20, 0]]),
+            "disc 1 at \\(20, 0\\) extends 10.5 beyond the container",
+        ),
+        (dict(position=[[0, 0, 0]]), "position has shape 1 × 3, but it must be N × 2"),
+        (dict(position=3), "position has shape one number, but"),
+        (dict(path=3), "path has shape one number, but"),
+        (dict(position=[]), "position has shape 0, but it must be N × 2"),
+        (dict(position=np.zeros((0, 2))), "at least one disc"),
+        (dict(position=[[0, float("nan")]]), "y of disc 0 is nan"),
+        (dict(position=two, velocity=[[1, 1]]), "velocity has shape 1 × 2, but it must be 2 × 2"),
+        (dict(position=two, velocity=[[1, 1], [np.inf, 0]]), "vx of disc 1 is inf"),
+        (dict(position=two, spin=[1, 2, 3]), "spin has shape 3, but it must be 2 numbers"),
+        (dict(position=two, radius=[1, -1]), "radius of disc 1 is -1"),
+        (dict(position=two, mass=[1, 0]), "mass of disc 1 is 0"),
+        (dict(position=two, inertia=[1, 0]), "inertia of disc 1 is 0"),
+        (dict(position=two, cannot_spin=[0, 0.5]), "can_spin of disc 1 is 0.5"),
+        (
+            dict(position=two, cannot_spin=1, spin=[0, 2]),
+            "disc 1 has the spin 2, but it cannot spin",
+        ),
+        (dict(position=two, discs=2), "discs and position are both given"),
+        (dict(velocity=two), "velocity is given for each disc, but position is not"),
+        (dict(position=two, body="sphere"), "only for discs without a floor"),
+        (dict(path=[[0, 0]]), "at least two"),
+        (dict(path=[[1, 1], [1, 1]]), "the same point"),
+        (dict(path=[[0, 0], [1, 0], [1, 0]]), "consecutive vertices must differ"),
+        (dict(path=two, path_times=[0, 20]), "times must increase"),
+        (dict(path=two, path_times=[1, 2]), "begins with 1"),
+        (dict(path=two, path_times=[0, 1, 2]), "path_times has shape 3, but"),
+        (dict(path=[[0, 0], [1e9, 0]]), "path contains 1000000000"),
+        (dict(position=two, spin=1e200), "spin of disc 0 is 1e"),
+        (dict(path=two, amplitude=2), "both define the path"),
+        (dict(path_times=[0, 1]), "path_times is given, but path is not"),
+        (dict(path="spiral"), "path is 'spiral'"),
+        (dict(position=two, mu=-1), "mu is '-1'"),
+    ],
+)
 def test_invalid_custom_scenes_are_rejected(wrong, message):
     with pytest.raises(ValueError, match=message):
         swirl.Simulation(**wrong)
 
 
-@pytest.mark.parametrize("wrong", [
-    dict(position="here"), dict(position=[["a", "b"]]), dict(position=[[1], [2, 3]]),
-    dict(position=two, spin=object()), dict(path=[[1j, 0], [0, 0]]),
-    dict(position=np.array(two, dtype=object)), dict(nonsense=3), dict(mu=[1, 2]),
-])
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        dict(position="here"),
+        dict(position=[["a", "b"]]),
+        dict(position=[[1], [2, 3]]),
+        dict(position=two, spin=object()),
+        dict(path=[[1j, 0], [0, 0]]),
+        dict(position=np.array(two, dtype=object)),
+        dict(nonsense=3),
+        dict(mu=[1, 2]),
+    ],
+)
 def test_arguments_of_wrong_types_are_rejected(wrong):
     with pytest.raises(TypeError):
         swirl.Simulation(**wrong)
@@ -410,8 +520,14 @@ def test_arrays_of_any_memory_layout_are_accepted():
     spread = np.zeros((6, 4))
     spread[::2, ::2] = position
     states = set()
-    for given in (position, position.astype(np.float32), np.asfortranarray(position, dtype=float),
-                  spread[::2, ::2], position.tolist(), position.astype(">f8")):
+    for given in (
+        position,
+        position.astype(np.float32),
+        np.asfortranarray(position, dtype=float),
+        spread[::2, ::2],
+        position.tolist(),
+        position.astype(">f8"),
+    ):
         sim = swirl.Simulation(position=given)
         sim.advance(events=100)
         states.add(sim.state_hash)
@@ -442,7 +558,7 @@ def test_damaged_files_are_rejected(tmp_path):
         if random.random() < 0.5:
             bad[random.randrange(len(bad))] ^= 1 << random.randrange(8)
         else:
-            bad = bad[:random.randrange(len(bad))]
+            bad = bad[: random.randrange(len(bad))]
         file.write_bytes(bad)
         with pytest.raises(swirl.FileError, match="not a swirl simulation that can continue"):
             swirl.load(file)
@@ -465,32 +581,39 @@ HEAD = b"swirl simulation 3\n"
 
 def _forged(archive, at, word):
     """The archive with eight bytes replaced by `word`, and a valid checksum."""
-    body = archive[len(HEAD) + 8:]
-    body = body[:at] + word[:max(0, len(body) - at)] + body[at + 8:]
+    body = archive[len(HEAD) + 8 :]
+    body = body[:at] + word[: max(0, len(body) - at)] + body[at + 8 :]
     return HEAD + struct.pack("<Q", _crc64(body)) + body
 
 
-SPECIAL = [struct.pack("<d", x) for x in (math.nan, math.inf, -math.inf, 1e308, 1e18, -1.0, 0.0, 0.5,
-                                          1e-300)] + \
-    [struct.pack("<Q", n) for n in (0, 1, 2, 255, 2**31, 2**61, 2**63, 2**64 - 1)]
+SPECIAL = [
+    struct.pack("<d", x)
+    for x in (math.nan, math.inf, -math.inf, 1e308, 1e18, -1.0, 0.0, 0.5, 1e-300)
+] + [struct.pack("<Q", n) for n in (0, 1, 2, 255, 2**31, 2**61, 2**63, 2**64 - 1)]
 
 
 @pytest.mark.parametrize("custom", [False, True])
 def test_forged_archives_are_rejected_or_continue(custom, tmp_path):
-    sim = swirl.Simulation(discs=3, seed=2, sides=3) if not custom else \
-        swirl.Simulation(position=[[0, 0], [3, 0], [0, 3]], path=[[0, 0], [2, 1], [-1, 2]])
+    sim = (
+        swirl.Simulation(discs=3, seed=2, sides=3)
+        if not custom
+        else swirl.Simulation(position=[[0, 0], [3, 0], [0, 3]], path=[[0, 0], [2, 1], [-1, 2]])
+    )
     sim.advance(events=1000)
     sim.save(tmp_path / "good")
     archive = (tmp_path / "good").read_bytes()
-    body = archive[len(HEAD) + 8:]
+    body = archive[len(HEAD) + 8 :]
     text = struct.unpack_from("<Q", body)[0]
     numbers = 8 + text + 1  # after the parameters and the flag for custom scenes
     assert _forged(archive, 0, body[:8]) == archive
     rejected = 0
-    # Every number after the parameters: number of segments, segments, whole periods and clock, number of
-    # the segment (four bytes) and event counts, discs. Each is replaced by three special values.
+    # Every number after the parameters: number of segments, segments, whole periods and clock,
+    # number of the segment (four bytes) and event counts, discs. Each is replaced by three special
+    # values.
     offsets = [*range(0, 8, 8), *range(numbers, len(body) - 7, 8)]
-    offsets += [numbers + 8 + 3 * 56 + 16 + 4 + 8 * k for k in range((len(body) - numbers - 196) // 8)]
+    offsets += [
+        numbers + 8 + 3 * 56 + 16 + 4 + 8 * k for k in range((len(body) - numbers - 196) // 8)
+    ]
     chosen = random.Random(4)
     tried = [(at, word) for at in offsets for word in chosen.sample(SPECIAL, 3)]
     for at, word in tried:
@@ -593,9 +716,15 @@ def test_threads_share_one_simulation():
     def use(k):
         try:
             for _ in range(30):
-                [lambda: sim.step(500), lambda: sim.advance(events=500), lambda: sim.snapshot().position,
-                 lambda: pickle.dumps(sim), lambda: list(sim.events(20)), lambda: sim.state_hash,
-                 lambda: sim.sample(0.01)][k % 7]()
+                [
+                    lambda: sim.step(500),
+                    lambda: sim.advance(events=500),
+                    lambda: sim.snapshot().position,
+                    lambda: pickle.dumps(sim),
+                    lambda: list(sim.events(20)),
+                    lambda: sim.state_hash,
+                    lambda: sim.sample(0.01),
+                ][k % 7]()
         except Exception as error:
             raised.append(error)
 
@@ -658,16 +787,26 @@ def test_simulation_has_an_svg():
 
 
 def test_a_collapse_ends_every_call_with_the_reason():
-    """Without friction and restitution, discs collide ever faster; no call may wait for a time then."""
+    """Without friction and restitution, discs collide ever faster; no call may wait for a time
+    then."""
+
     def new():
         return swirl.Simulation(discs=48, mu=0, restitution=0, period=10)
 
-    calls = (lambda s: s.advance(periods=30), lambda s: s.advance(time=300.5), lambda s: s.advance(events=10**8),
-             lambda s: s.advance_to(30), lambda s: s.sample(periods=30), lambda s: s.step(10**6),
-             lambda s: [None for _ in s.events(10**6)])
+    calls = (
+        lambda s: s.advance(periods=30),
+        lambda s: s.advance(time=300.5),
+        lambda s: s.advance(events=10**8),
+        lambda s: s.advance_to(30),
+        lambda s: s.sample(periods=30),
+        lambda s: s.step(10**6),
+        lambda s: [None for _ in s.events(10**6)],
+    )
     for call in calls:
         simulation = new()
-        with pytest.raises(swirl.Failure, match="inelastic collapse.*\nhint: use a contact_duration"):
+        with pytest.raises(
+            swirl.Failure, match="inelastic collapse.*\nhint: use a contact_duration"
+        ):
             call(simulation)
         # Later calls fail, too.
         with pytest.raises(swirl.Failure, match="inelastic collapse"):
@@ -703,7 +842,8 @@ def test_a_fork_during_a_call_is_reported_in_the_child():
 
 
 def test_time_with_a_ramp_of_the_period_is_that_of_a_loaded_simulation():
-    """A loaded simulation computes the time from the ramp, an advanced one from period to period."""
+    """A loaded simulation computes the time from the ramp, an advanced one from period to
+    period."""
     simulation = swirl.Simulation(discs=5, ramp="period=10:12:9@2..40")
     for _ in range(45):
         simulation.advance(periods=1)

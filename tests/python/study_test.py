@@ -18,15 +18,38 @@ from scenes import command
 def table_of(folder):
     done = command("collect", folder, "--csv", "-")
     assert done.returncode == 0, done.stderr
-    return pandas.read_csv(io.StringIO(done.stdout), float_precision="round_trip",
-                           dtype={"state_hash": str, "steady_state": str})
+    return pandas.read_csv(
+        io.StringIO(done.stdout),
+        float_precision="round_trip",
+        dtype={"state_hash": str, "steady_state": str},
+    )
 
 
 def test_sweep_equals_that_of_the_command_line(tmp_path):
-    ours = swirl.sweep(tmp_path / "ours", discs=range(5, 8), mu=[0.1, 0.5], events=5000, seeds=2,
-                       measure=["slip", "density"])
-    done = command("sweep", "--discs", "5:7", "--mu", "0.1,0.5", "--events", "5000", "--seeds", "2",
-                   "--measure", "slip,density", "--out", tmp_path / "theirs", "--quiet")
+    ours = swirl.sweep(
+        tmp_path / "ours",
+        discs=range(5, 8),
+        mu=[0.1, 0.5],
+        events=5000,
+        seeds=2,
+        measure=["slip", "density"],
+    )
+    done = command(
+        "sweep",
+        "--discs",
+        "5:7",
+        "--mu",
+        "0.1,0.5",
+        "--events",
+        "5000",
+        "--seeds",
+        "2",
+        "--measure",
+        "slip,density",
+        "--out",
+        tmp_path / "theirs",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "theirs"), check_exact=True)
     pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "ours"), check_exact=True)
@@ -43,37 +66,79 @@ def test_sweep_equals_that_of_the_command_line(tmp_path):
 TABLE = [{"discs": 5, "mu": 0.5}, {"discs": 7, "mu": 0.1, "seeds": 3}]
 
 
-@pytest.mark.parametrize("points", (TABLE, pandas.DataFrame({"discs": [5, 7], "mu": [0.5, 0.1], "seeds": [1, 3]}),
-                                    {"discs": np.array([5, 7]), "mu": (0.5, 0.1), "seeds": [None, 3]}))
+@pytest.mark.parametrize(
+    "points",
+    (
+        TABLE,
+        pandas.DataFrame({"discs": [5, 7], "mu": [0.5, 0.1], "seeds": [1, 3]}),
+        {"discs": np.array([5, 7]), "mu": (0.5, 0.1), "seeds": [None, 3]},
+    ),
+)
 def test_a_table_of_points_equals_that_of_the_command_line(tmp_path, points):
     ours = swirl.sweep(tmp_path / "ours", points=points, events=3000, measure="slip")
     (tmp_path / "points.csv").write_text("discs,mu,seeds\n5,0.5,1\n7,0.1,3\n")
-    done = command("sweep", "--points", tmp_path / "points.csv", "--events", 3000, "--measure", "slip", "--out",
-                   tmp_path / "theirs", "--quiet")
+    done = command(
+        "sweep",
+        "--points",
+        tmp_path / "points.csv",
+        "--events",
+        3000,
+        "--measure",
+        "slip",
+        "--out",
+        tmp_path / "theirs",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     pandas.testing.assert_frame_equal(ours, table_of(tmp_path / "theirs"), check_exact=True)
     assert ours["replicates"].tolist() == [1, 3]
     # Points that a row does not give have the default.
-    more = swirl.sweep(tmp_path / "ours", points=[{"discs": 6, "seeds": 2}, {**TABLE[0], "seeds": 2}], events=3000,
-                       grow=True)
+    more = swirl.sweep(
+        tmp_path / "ours",
+        points=[{"discs": 6, "seeds": 2}, {**TABLE[0], "seeds": 2}],
+        events=3000,
+        grow=True,
+    )
     assert more["replicates"].tolist() == [2, 3, 2] and np.isnan(more["mu"][2])
-    files = swirl._engine.result_files(str(tmp_path / "ours"), [{"discs": 6, "events": 3000}, {**TABLE[0], "events": 3000}], 2)
-    assert [[json.loads(open(file).read())["config"]["discs"] for file, _ in row] for row in files] == [[6, 6], [5, 5]]
+    files = swirl._engine.result_files(
+        str(tmp_path / "ours"), [{"discs": 6, "events": 3000}, {**TABLE[0], "events": 3000}], 2
+    )
+    assert [
+        [json.loads(open(file).read())["config"]["discs"] for file, _ in row] for row in files
+    ] == [[6, 6], [5, 5]]
 
 
-@pytest.mark.parametrize("points, kind, message", [
-    ([], ValueError, "points has no rows"), ("points.csv", TypeError, "read_csv"), ([5, 6], TypeError, "DataFrame"),
-    ({"discs": 5}, TypeError, "column"), ({"discs": "5:7"}, TypeError, "column"),
-    ({"discs": [5, 6], "mu": [1]}, ValueError, "different lengths"),
-    ([{"discs": 5}, {"disks": 6}], TypeError, "points, row 2: there is no parameter 'disks'.\nhint: did you mean 'discs'"),
-    ([{"discs": 5}, {"discs": [6]}], TypeError, "points, row 2: discs is"),
-    ([{"discs": 5}, {"discs": True}], TypeError, "points, row 2: discs is"),
-    ([{"discs": 5, "mu": ""}], ValueError, "points, row 1: mu is empty"),
-    ([{"discs": 5, "seeds": 1.5}], ValueError, "points, row 1: seeds is '1.5'"),
-    ([{"discs": 5}, {"discs": 5.0}], ValueError, "points, row 2: the run is that of points, row 1"),
-    (pandas.DataFrame({"discs": [5, 6], "mu": [1, np.nan]}), ValueError, "points, row 2: mu is 'nan'"),
-    (pandas.DataFrame([[5, 6]], columns=["discs", "discs"]), ValueError, "two columns discs"),
-])
+@pytest.mark.parametrize(
+    "points, kind, message",
+    [
+        ([], ValueError, "points has no rows"),
+        ("points.csv", TypeError, "read_csv"),
+        ([5, 6], TypeError, "DataFrame"),
+        ({"discs": 5}, TypeError, "column"),
+        ({"discs": "5:7"}, TypeError, "column"),
+        ({"discs": [5, 6], "mu": [1]}, ValueError, "different lengths"),
+        (
+            [{"discs": 5}, {"disks": 6}],
+            TypeError,
+            "points, row 2: there is no parameter 'disks'.\nhint: did you mean 'discs'",
+        ),
+        ([{"discs": 5}, {"discs": [6]}], TypeError, "points, row 2: discs is"),
+        ([{"discs": 5}, {"discs": True}], TypeError, "points, row 2: discs is"),
+        ([{"discs": 5, "mu": ""}], ValueError, "points, row 1: mu is empty"),
+        ([{"discs": 5, "seeds": 1.5}], ValueError, "points, row 1: seeds is '1.5'"),
+        (
+            [{"discs": 5}, {"discs": 5.0}],
+            ValueError,
+            "points, row 2: the run is that of points, row 1",
+        ),
+        (
+            pandas.DataFrame({"discs": [5, 6], "mu": [1, np.nan]}),
+            ValueError,
+            "points, row 2: mu is 'nan'",
+        ),
+        (pandas.DataFrame([[5, 6]], columns=["discs", "discs"]), ValueError, "two columns discs"),
+    ],
+)
 def test_invalid_tables_of_points_are_rejected(tmp_path, points, kind, message):
     with pytest.raises(kind, match=message):
         swirl.sweep(tmp_path / "s", points=points, events=1000)
@@ -92,6 +157,7 @@ def test_a_table_excludes_lists_and_chains(tmp_path):
 def test_sweep_without_a_folder_leaves_no_files(tmp_path, monkeypatch):
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     import tempfile
+
     tempfile.tempdir = None
     table = swirl.sweep(discs="5:7", events=2000)
     assert len(table) == 3 and os.listdir(tmp_path) == []
@@ -104,45 +170,80 @@ def test_different_sweep_in_the_same_folder_is_rejected(tmp_path):
         swirl.sweep(tmp_path, discs=[6], events=1000)
 
 
-@pytest.mark.parametrize("wrong, kind, message", [
-    (dict(discs=[]), ValueError, "discs is an empty list"),
-    (dict(discs=[5, 5]), ValueError, "5"), (dict(discs="5:x"), ValueError, "discs"),
-    (dict(discs=[5, 900]), ValueError, "900 discs do not fit"), (dict(mu=[0.1, None]), TypeError, "mu"),
-    (dict(discs=[5], seeds=0), ValueError, "seeds is 0"), (dict(discs=[5], seeds=1.5), TypeError, "seeds"),
-    (dict(discs=[5], measure="nothing"), ValueError, "measure has 'nothing'"),
-    (dict(discs=[5], measure=[print]), TypeError, "swirl.map"),
-    (dict(discs=[5], frames=10), ValueError, "frames is given, but out"), (dict(disks=[5]), TypeError, "did you"),
-    (dict(discs=[5], threads=-1), ValueError, "threads"), (dict(discs=[True]), TypeError, "True"),
-])
+@pytest.mark.parametrize(
+    "wrong, kind, message",
+    [
+        (dict(discs=[]), ValueError, "discs is an empty list"),
+        (dict(discs=[5, 5]), ValueError, "5"),
+        (dict(discs="5:x"), ValueError, "discs"),
+        (dict(discs=[5, 900]), ValueError, "900 discs do not fit"),
+        (dict(mu=[0.1, None]), TypeError, "mu"),
+        (dict(discs=[5], seeds=0), ValueError, "seeds is 0"),
+        (dict(discs=[5], seeds=1.5), TypeError, "seeds"),
+        (dict(discs=[5], measure="nothing"), ValueError, "measure has 'nothing'"),
+        (dict(discs=[5], measure=[print]), TypeError, "swirl.map"),
+        (dict(discs=[5], frames=10), ValueError, "frames is given, but out"),
+        (dict(disks=[5]), TypeError, "did you"),
+        (dict(discs=[5], threads=-1), ValueError, "threads"),
+        (dict(discs=[True]), TypeError, "True"),
+    ],
+)
 def test_invalid_sweeps_are_rejected(wrong, kind, message):
     with pytest.raises(kind, match=message):
         swirl.sweep(**wrong)
 
 
 def test_a_chain_equals_that_of_the_command_line(tmp_path):
-    ours = swirl.sweep(tmp_path / "ours", discs=12, mu=[0.2, 0.6, 1], periods=6, seeds=2, chain="mu", series=True)
-    done = command("sweep", "--discs", 12, "--mu", "0.2,0.6,1", "--periods", 6, "--seeds", 2, "--chain", "mu",
-                   "--series", "--out", tmp_path / "theirs", "--quiet")
+    ours = swirl.sweep(
+        tmp_path / "ours", discs=12, mu=[0.2, 0.6, 1], periods=6, seeds=2, chain="mu", series=True
+    )
+    done = command(
+        "sweep",
+        "--discs",
+        12,
+        "--mu",
+        "0.2,0.6,1",
+        "--periods",
+        6,
+        "--seeds",
+        2,
+        "--chain",
+        "mu",
+        "--series",
+        "--out",
+        tmp_path / "theirs",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     theirs = swirl.collect(tmp_path / "theirs")
     pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
     assert set(ours["direction"]) == {"up", "down"}
     # The area of the loop, by the trapezoidal rule.
-    branches = [ours[ours["direction"] == name].set_index("mu")["mean_by_time"] for name in ("down", "up")]
+    branches = [
+        ours[ours["direction"] == name].set_index("mu")["mean_by_time"] for name in ("down", "up")
+    ]
     difference = (branches[0] - branches[1]).sort_index()
-    loop, = ours.attrs["loops"]
+    (loop,) = ours.attrs["loops"]
     means = (difference.to_numpy()[1:] + difference.to_numpy()[:-1]) / 2
-    assert loop["mean_by_time"] == pytest.approx((means * np.diff(difference.index)).sum(), abs=1e-12)
+    assert loop["mean_by_time"] == pytest.approx(
+        (means * np.diff(difference.index)).sum(), abs=1e-12
+    )
     assert loop["mean_by_time_error"] > 0 and loop["replicates"] == 2
-    assert ({file.name: file.read_bytes() for file in (tmp_path / "ours/series").iterdir()}
-            == {file.name: file.read_bytes() for file in (tmp_path / "theirs/series").iterdir()} != {})
+    assert (
+        {file.name: file.read_bytes() for file in (tmp_path / "ours/series").iterdir()}
+        == {file.name: file.read_bytes() for file in (tmp_path / "theirs/series").iterdir()}
+        != {}
+    )
 
 
-@pytest.mark.parametrize("wrong, message", [
-    (dict(mu=[0.1, 1], periods=4, chain="mu", frames=8), "chain and frames cannot be combined"),
-    (dict(mu=[0.1, 1], chain="amplitude"), "amplitude"),
-    (dict(mu=[0.1, 1], chain="mu", grow=True), "chain and series cannot be used with grow"),
-])
+@pytest.mark.parametrize(
+    "wrong, message",
+    [
+        (dict(mu=[0.1, 1], periods=4, chain="mu", frames=8), "chain and frames cannot be combined"),
+        (dict(mu=[0.1, 1], chain="amplitude"), "amplitude"),
+        (dict(mu=[0.1, 1], chain="mu", grow=True), "chain and series cannot be used with grow"),
+    ],
+)
 def test_invalid_chains_are_rejected(tmp_path, wrong, message):
     with pytest.raises(ValueError, match=message):
         swirl.sweep(tmp_path / "s", **wrong)
@@ -179,8 +280,22 @@ except KeyboardInterrupt:
 def test_crossing_equals_that_of_the_command_line():
     call = dict(min_discs=30, max_discs=46, tolerance=1.0)
     ours = swirl.crossing(**call, mu=1, events=20000)
-    done = command("crossing", "--from", 30, "--to", 46, "--tolerance", 1.0, "--mu", 1, "--events",
-                   20000, "--json", "-", "--quiet")
+    done = command(
+        "crossing",
+        "--from",
+        30,
+        "--to",
+        46,
+        "--tolerance",
+        1.0,
+        "--mu",
+        1,
+        "--events",
+        20000,
+        "--json",
+        "-",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     theirs = json.loads(done.stdout)
     for found in (ours.found, theirs):
@@ -196,21 +311,48 @@ def test_a_crossing_and_the_command_line_continue_each_other(tmp_path):
     ours = swirl.crossing(tmp_path / "search", **call)
     made = {file: file.stat().st_mtime_ns for file in (tmp_path / "search/results").iterdir()}
     assert len(made) == ours.found["runs"]
-    done = command("crossing", "--from", 34, "--to", 40, "--tolerance", 2, "--mu", 1, "--events", 4000, "--warmup", 2,
-                   "--out", tmp_path / "search", "--json", "-", "--quiet")
+    done = command(
+        "crossing",
+        "--from",
+        34,
+        "--to",
+        40,
+        "--tolerance",
+        2,
+        "--mu",
+        1,
+        "--events",
+        4000,
+        "--warmup",
+        2,
+        "--out",
+        tmp_path / "search",
+        "--json",
+        "-",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     assert json.loads(done.stdout)["N_c"] == ours.found["N_c"]
     assert swirl.crossing(tmp_path / "search", **call).found["points"] == ours.found["points"]
-    assert {file: file.stat().st_mtime_ns for file in (tmp_path / "search/results").iterdir()} == made
+    assert {
+        file: file.stat().st_mtime_ns for file in (tmp_path / "search/results").iterdir()
+    } == made
     with pytest.raises(swirl.Failure, match="another"):
         swirl.crossing(tmp_path / "search", **{**call, "mu": 0.5})
 
 
-@pytest.mark.parametrize("wrong, kind", [
-    (dict(min_discs=10, max_discs=5), ValueError), (dict(tolerance=0), ValueError), (dict(min_discs=0), ValueError),
-    (dict(discs=40), TypeError), (dict(max_discs=2.5), TypeError),
-    (dict(tolerance=float("nan")), ValueError), (dict(min_discs=400, max_discs=500), ValueError),
-])
+@pytest.mark.parametrize(
+    "wrong, kind",
+    [
+        (dict(min_discs=10, max_discs=5), ValueError),
+        (dict(tolerance=0), ValueError),
+        (dict(min_discs=0), ValueError),
+        (dict(discs=40), TypeError),
+        (dict(max_discs=2.5), TypeError),
+        (dict(tolerance=float("nan")), ValueError),
+        (dict(min_discs=400, max_discs=500), ValueError),
+    ],
+)
 def test_invalid_crossings_are_rejected(wrong, kind):
     with pytest.raises(kind):
         swirl.crossing(**wrong)
@@ -218,21 +360,60 @@ def test_invalid_crossings_are_rejected(wrong, kind):
 
 def test_parameter_map_equals_that_of_the_command_line(tmp_path):
     reported = []
-    ours = swirl.parameter_map(tmp_path / "ours", x=("mu", [0, 0.5, 1]), y="discs=4:40", steps=5, level=0.5, seeds=4,
-                               periods=12, progress=lambda *numbers: reported.append(numbers))
-    done = command("map", "--x", "mu=0,0.5,1", "--y", "discs=4:40", "--steps", 5, "--level", 0.5, "--seeds", 4,
-                   "--periods", 12, "--out", tmp_path / "theirs", "--no-figure", "--quiet")
+    ours = swirl.parameter_map(
+        tmp_path / "ours",
+        x=("mu", [0, 0.5, 1]),
+        y="discs=4:40",
+        steps=5,
+        level=0.5,
+        seeds=4,
+        periods=12,
+        progress=lambda *numbers: reported.append(numbers),
+    )
+    done = command(
+        "map",
+        "--x",
+        "mu=0,0.5,1",
+        "--y",
+        "discs=4:40",
+        "--steps",
+        5,
+        "--level",
+        0.5,
+        "--seeds",
+        4,
+        "--periods",
+        12,
+        "--out",
+        tmp_path / "theirs",
+        "--no-figure",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     theirs = pandas.read_csv(tmp_path / "theirs/map.csv", float_precision="round_trip")
     pandas.testing.assert_frame_equal(ours, theirs, check_exact=True)
-    assert "points needed" in ours.attrs["summary"] and all(len(numbers) == 3 for numbers in reported)
+    assert "points needed" in ours.attrs["summary"] and all(
+        len(numbers) == 3 for numbers in reported
+    )
     # Each continues the map of the other.
     again = swirl.parameter_map(tmp_path / "theirs")
     pandas.testing.assert_frame_equal(ours, again, check_exact=True)
     # Both grow alike, and keep their runs.
     larger = swirl.parameter_map(tmp_path / "ours", grow=True, x="mu=0:1.5", steps=7, seeds=8)
-    done = command("map", "--out", tmp_path / "theirs", "--grow", "--x", "mu=0:1.5", "--steps", 7, "--seeds", 8,
-                   "--no-figure", "--quiet")
+    done = command(
+        "map",
+        "--out",
+        tmp_path / "theirs",
+        "--grow",
+        "--x",
+        "mu=0:1.5",
+        "--steps",
+        7,
+        "--seeds",
+        8,
+        "--no-figure",
+        "--quiet",
+    )
     assert done.returncode == 0, done.stderr
     theirs = pandas.read_csv(tmp_path / "theirs/map.csv", float_precision="round_trip")
     pandas.testing.assert_frame_equal(larger, theirs, check_exact=True)
@@ -257,16 +438,28 @@ def test_the_range_of_a_map_of_crossings_grows(tmp_path):
 
 def test_failed_runs_of_a_map_are_reported():
     with pytest.warns(swirl.SweepWarning, match="inelastic collapse"):
-        table = swirl.parameter_map(x=("restitution", [0.1, 1]), contact_duration=0, periods=10, seeds=2)
+        table = swirl.parameter_map(
+            x=("restitution", [0.1, 1]), contact_duration=0, periods=10, seeds=2
+        )
     assert table["failed"].tolist() == [2, 0]
 
 
-@pytest.mark.parametrize("wrong, kind", [
-    (dict(), ValueError), (dict(seeds=3), ValueError), (dict(x="mu"), TypeError), (dict(x=("mu", 1, 2)), TypeError), (dict(x="mu=1:0"), ValueError),
-    (dict(x="mu=0:1", y="mu=0:1"), ValueError), (dict(x="mu=0:1", quantity="slip"), ValueError),
-    (dict(x="mu=0:1", steps=1), ValueError), (dict(x="mu=0:1", seeds=0), ValueError),
-    (dict(x="mu=0:1", discs=[3, 4]), TypeError), (dict(x="mu=0:1", quantity="N_c", discs=30), ValueError),
-])
+@pytest.mark.parametrize(
+    "wrong, kind",
+    [
+        (dict(), ValueError),
+        (dict(seeds=3), ValueError),
+        (dict(x="mu"), TypeError),
+        (dict(x=("mu", 1, 2)), TypeError),
+        (dict(x="mu=1:0"), ValueError),
+        (dict(x="mu=0:1", y="mu=0:1"), ValueError),
+        (dict(x="mu=0:1", quantity="slip"), ValueError),
+        (dict(x="mu=0:1", steps=1), ValueError),
+        (dict(x="mu=0:1", seeds=0), ValueError),
+        (dict(x="mu=0:1", discs=[3, 4]), TypeError),
+        (dict(x="mu=0:1", quantity="N_c", discs=30), ValueError),
+    ],
+)
 def test_invalid_maps_are_rejected(wrong, kind, tmp_path):
     with pytest.raises(kind):
         swirl.parameter_map(tmp_path / "map", **wrong)
@@ -275,13 +468,32 @@ def test_invalid_maps_are_rejected(wrong, kind, tmp_path):
 
 def test_map_has_the_seeds_of_a_sweep(tmp_path):
     reported = []
-    results = swirl.map(discs=[5, 9], mu=[0.1, 1], events=4000, seeds=2, measure=["slip"],
-                        progress=lambda done, runs: reported.append((done, runs)))
-    assert [(r.config["discs"], r.config["mu_disc"]) for r in results] == \
-        [(n, mu) for n in (5, 9) for mu in (0.1, 1) for _ in range(2)]
+    results = swirl.map(
+        discs=[5, 9],
+        mu=[0.1, 1],
+        events=4000,
+        seeds=2,
+        measure=["slip"],
+        progress=lambda done, runs: reported.append((done, runs)),
+    )
+    assert [(r.config["discs"], r.config["mu_disc"]) for r in results] == [
+        (n, mu) for n in (5, 9) for mu in (0.1, 1) for _ in range(2)
+    ]
     assert reported == [(k, 8) for k in range(1, 9)]
-    command("sweep", "--discs", "5,9", "--mu", "0.1,1", "--events", "4000", "--seeds", "2", "--out",
-            tmp_path, "--quiet")
+    command(
+        "sweep",
+        "--discs",
+        "5,9",
+        "--mu",
+        "0.1,1",
+        "--events",
+        "4000",
+        "--seeds",
+        "2",
+        "--out",
+        tmp_path,
+        "--quiet",
+    )
     hashes = []
     for name in sorted(os.listdir(tmp_path / "results")):
         with open(tmp_path / "results" / name) as file:
@@ -305,9 +517,14 @@ def test_map_takes_custom_measurements_and_raises_their_errors():
         swirl.map(discs=[5, 6], events=[5000, 10**10], measure=[broken])
 
 
-@pytest.mark.parametrize("call", (
-    lambda folder: swirl.sweep(folder, mu=[0, 1], events=1000), lambda folder: swirl.collect(folder),
-    lambda folder: swirl.parameter_map(folder, x="mu=0:1")))
+@pytest.mark.parametrize(
+    "call",
+    (
+        lambda folder: swirl.sweep(folder, mu=[0, 1], events=1000),
+        lambda folder: swirl.collect(folder),
+        lambda folder: swirl.parameter_map(folder, x="mu=0:1"),
+    ),
+)
 def test_a_missing_package_is_reported_before_the_first_run(tmp_path, monkeypatch, call):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(ImportError, match="needs the package pandas.*\nhint: pip install pandas"):
@@ -326,8 +543,17 @@ def test_a_crossing_of_lists_is_a_table(tmp_path):
 
 
 def test_points_are_compared_with_a_table(tmp_path):
-    rows = [{"discs": n, "mu": mu, "replicates": 1, "mean_by_time": 0.3 - mu * n / 40, "mean_by_time_error": 0.001}
-            for mu in (0.4, 0.2) for n in (32, 8, 16)]
+    rows = [
+        {
+            "discs": n,
+            "mu": mu,
+            "replicates": 1,
+            "mean_by_time": 0.3 - mu * n / 40,
+            "mean_by_time_error": 0.001,
+        }
+        for mu in (0.4, 0.2)
+        for n in (32, 8, 16)
+    ]
     table = pandas.DataFrame(rows)
     points = {"N": [8, 24, 60], "rate": [0.24, 0.12, 1], "error": [0.01, 0.01, 0.1]}
     found = swirl.compare_points(points, table)
@@ -349,8 +575,12 @@ def test_over_seeds_is_the_mean_of_a_sweep(tmp_path):
     table = swirl.sweep(tmp_path / "sweep", discs=8, events=[3000], warmup=1, seeds=3)
     found = swirl.map(discs=8, events=[3000], warmup=1, seeds=3)
     rates = [run.rotation.mean_by_time for run in found]
-    mean = swirl.over_seeds([r.mean for r in rates], [r.error for r in rates], periods=[run.periods - run.warmup for run in found],
-                            effective_samples=[r.effective_samples for r in rates])
+    mean = swirl.over_seeds(
+        [r.mean for r in rates],
+        [r.error for r in rates],
+        periods=[run.periods - run.warmup for run in found],
+        effective_samples=[r.effective_samples for r in rates],
+    )
     assert mean.mean == pytest.approx(table["mean_by_time"][0], rel=1e-12)
     assert mean.error == pytest.approx(table["mean_by_time_error"][0], rel=1e-9)
     # Short runs are left out, unless all are short.

@@ -48,7 +48,9 @@ def shown_classes():
 def test_every_class_has_one_line(kind, instances):
     one = instances[kind]
     texts = (str(one), repr(one))
-    assert any("\n" not in text and len(text) < 400 and "object at 0x" not in text for text in texts), texts
+    assert any(
+        "\n" not in text and len(text) < 400 and "object at 0x" not in text for text in texts
+    ), texts
 
 
 @pytest.mark.parametrize("kind", shown_classes(), ids=lambda kind: kind.__name__)
@@ -70,8 +72,21 @@ def test_html_shows_one_rate(result):
 # --- pandas and xarray ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", [swirl.Table, swirl.Series, swirl.Measured, swirl.Rotation, swirl.Result, swirl.Analysis,
-                                  swirl.Crossing, swirl.Snapshot, swirl.Frames], ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        swirl.Table,
+        swirl.Series,
+        swirl.Measured,
+        swirl.Rotation,
+        swirl.Result,
+        swirl.Analysis,
+        swirl.Crossing,
+        swirl.Snapshot,
+        swirl.Frames,
+    ],
+    ids=lambda kind: kind.__name__,
+)
 def test_every_table_has_both_forms(kind, instances):
     one = instances[kind]
     frame, data = one.to_pandas(), one.to_xarray()
@@ -81,13 +96,17 @@ def test_every_table_has_both_forms(kind, instances):
         ours = frame[name].to_numpy()
         theirs = np.asarray(data[name].values)
         if theirs.size == len(ours):
-            np.testing.assert_array_equal(np.sort(ours.ravel()), np.sort(theirs.ravel()), err_msg=name)
+            np.testing.assert_array_equal(
+                np.sort(ours.ravel()), np.sort(theirs.ravel()), err_msg=name
+            )
     assert len(set(frame.columns) & known) > 0
     data.to_dataframe()
 
 
 def test_numbers_are_those_of_the_command_line(result, tmp_path):
-    done = command("run", *options(SCENE), "--measure", ",".join(MEASURE), "--tables", tmp_path, "--quiet")
+    done = command(
+        "run", *options(SCENE), "--measure", ",".join(MEASURE), "--tables", tmp_path, "--quiet"
+    )
     assert done.returncode == 0, done.stderr
     with open(tmp_path / "numbers.csv", newline="") as file:
         theirs = list(csv.DictReader(file))
@@ -110,8 +129,15 @@ def test_frames_as_tables_hold_every_disc():
     for k, disc in ((0, 0), (7, 3), (19, 4)):
         x, y = frames.position[k, disc]
         assert (table.loc[(k, disc), "x"], table.loc[(k, disc), "y"]) == (x, y)
-        assert data["position"][k, disc].sel(xy="y") == y and table.loc[(k, disc), "time"] == frames.time[k]
-        assert table.loc[(k, disc), "spin"] == frames.spin[k, disc] == frames[k].to_pandas()["spin"][disc]
+        assert (
+            data["position"][k, disc].sel(xy="y") == y
+            and table.loc[(k, disc), "time"] == frames.time[k]
+        )
+        assert (
+            table.loc[(k, disc), "spin"]
+            == frames.spin[k, disc]
+            == frames[k].to_pandas()["spin"][disc]
+        )
     assert len(table) == 100 and table["can_spin"].eq(1).all()
 
 
@@ -130,11 +156,22 @@ def tracks():
     sim = swirl.Simulation(discs=8)
     frames = sim.sample(periods=6, per_period=120)
     count, discs = frames.position.shape[:2]
-    table = pandas.DataFrame({"frame": np.repeat(np.arange(count), discs), "particle": np.tile(np.arange(discs), count),
-                              "x": 500 + 30 * frames.position[..., 0].ravel(),
-                              "y": 400 - 30 * frames.position[..., 1].ravel()})
-    return table, {"omega": sim.omega, "container_radius": sim.container_radius, "amplitude": 1.892, "scale": 30.0,
-                   "camera_fps": 120 / sim.period, "centre": (500.0, 400.0)}
+    table = pandas.DataFrame(
+        {
+            "frame": np.repeat(np.arange(count), discs),
+            "particle": np.tile(np.arange(discs), count),
+            "x": 500 + 30 * frames.position[..., 0].ravel(),
+            "y": 400 - 30 * frames.position[..., 1].ravel(),
+        }
+    )
+    return table, {
+        "omega": sim.omega,
+        "container_radius": sim.container_radius,
+        "amplitude": 1.892,
+        "scale": 30.0,
+        "camera_fps": 120 / sim.period,
+        "centre": (500.0, 400.0),
+    }
 
 
 def test_a_table_is_analysed_as_its_tracks(tracks):
@@ -142,12 +179,16 @@ def test_a_table_is_analysed_as_its_tracks(tracks):
     expected = swirl.analyse(swirl.Tracks(table, **camera), ["density"], warmup=1)
     assert expected.frames > 500 and expected.measured["density"]["by_time"].max() > 0
     for same in (table, table.set_index(table.index + 5), table.to_dict("series")):
-        assert repr(swirl.analyse(same, ["density"], warmup=1, **camera).rotation) == repr(expected.rotation)
+        assert repr(swirl.analyse(same, ["density"], warmup=1, **camera).rotation) == repr(
+            expected.rotation
+        )
 
 
 def test_a_table_needs_the_scale_of_its_camera(tracks):
     table, camera = tracks
-    with pytest.raises(TypeError, match="needs omega and container_radius.\nhint: use swirl.analyse"):
+    with pytest.raises(
+        TypeError, match="needs omega and container_radius.\nhint: use swirl.analyse"
+    ):
         swirl.analyse(table)
     with pytest.raises(TypeError, match="needs container_radius.\nhint: "):
         swirl.analyse(table, omega=1)
@@ -156,7 +197,9 @@ def test_a_table_needs_the_scale_of_its_camera(tracks):
     with pytest.raises(ValueError, match="columns frame, particle, x and y"):
         swirl.analyse(swirl.Simulation(discs=3).sample(1, 20).to_pandas(), **camera)
     for recording in (swirl.Tracks(table, **camera), swirl.Simulation(discs=3).sample(1, 20)):
-        with pytest.raises(TypeError, match="omega is given, but only a table of tracks needs it.*\nhint: "):
+        with pytest.raises(
+            TypeError, match="omega is given, but only a table of tracks needs it.*\nhint: "
+        ):
             swirl.analyse(recording, omega=1.0)
     with pytest.raises(TypeError, match="must be a swirl.Trajectory"):
         swirl.analyse([1, 2])
@@ -169,19 +212,71 @@ def with_cell(table, row, column, value):
 
 
 WRONG_TABLES = {
-    "a second header": (lambda t: with_cell(t, 17, "frame", "frame"), TypeError, "must hold numbers, but row 17 has 'frame'"),
-    "a missing value": (lambda t: with_cell(t, 17, "particle", None), TypeError, "particle of .* but row 17 has None"),
-    "NaN in x": (lambda t: with_cell(t, 17, "x", math.nan), ValueError, "row 17 of the tracks has no finite position"),
-    "NaN in frame": (lambda t: with_cell(t, 9, "frame", math.nan), ValueError, "whole numbers, but row 9 has nan"),
-    "half a frame": (lambda t: t.assign(frame=t["frame"] / 2), ValueError, "whole numbers, but row 8 has 0.5"),
-    "a decimal comma": (lambda t: with_cell(t, 3, "y", "1,5"), TypeError, "column y of .* but row 3 has '1,5'"),
-    "no y": (lambda t: t.drop(columns="y"), ValueError, "there is no y.\nhint: it has frame, particle, x."),
-    "upper case": (lambda t: t.rename(columns=str.upper), ValueError, "there is no frame.\nhint: rename 'FRAME' to 'frame'"),
-    "two columns x": (lambda t: t.rename(columns={"y": "x"}), TypeError, "column x of the tracks must hold numbers, but it"),
-    "a row twice": (lambda t: pandas.concat([t, t.iloc[[5]]]), ValueError, "particle 5 appears twice in frame 0"),
-    "metres": (lambda t: t.assign(x=t["x"] / 1e3, y=t["y"] / 1e3), swirl.Failure, "scale 30 is too large.\nhint: "),
-    "complex": (lambda t: t.assign(x=t["x"] * 1j), TypeError, "column x of the tracks must hold numbers, but row 0 has"),
-    "truth values": (lambda t: t.assign(particle=t["particle"] > 2), TypeError, "particle of .* but row 0 has False"),
+    "a second header": (
+        lambda t: with_cell(t, 17, "frame", "frame"),
+        TypeError,
+        "must hold numbers, but row 17 has 'frame'",
+    ),
+    "a missing value": (
+        lambda t: with_cell(t, 17, "particle", None),
+        TypeError,
+        "particle of .* but row 17 has None",
+    ),
+    "NaN in x": (
+        lambda t: with_cell(t, 17, "x", math.nan),
+        ValueError,
+        "row 17 of the tracks has no finite position",
+    ),
+    "NaN in frame": (
+        lambda t: with_cell(t, 9, "frame", math.nan),
+        ValueError,
+        "whole numbers, but row 9 has nan",
+    ),
+    "half a frame": (
+        lambda t: t.assign(frame=t["frame"] / 2),
+        ValueError,
+        "whole numbers, but row 8 has 0.5",
+    ),
+    "a decimal comma": (
+        lambda t: with_cell(t, 3, "y", "1,5"),
+        TypeError,
+        "column y of .* but row 3 has '1,5'",
+    ),
+    "no y": (
+        lambda t: t.drop(columns="y"),
+        ValueError,
+        "there is no y.\nhint: it has frame, particle, x.",
+    ),
+    "upper case": (
+        lambda t: t.rename(columns=str.upper),
+        ValueError,
+        "there is no frame.\nhint: rename 'FRAME' to 'frame'",
+    ),
+    "two columns x": (
+        lambda t: t.rename(columns={"y": "x"}),
+        TypeError,
+        "column x of the tracks must hold numbers, but it",
+    ),
+    "a row twice": (
+        lambda t: pandas.concat([t, t.iloc[[5]]]),
+        ValueError,
+        "particle 5 appears twice in frame 0",
+    ),
+    "metres": (
+        lambda t: t.assign(x=t["x"] / 1e3, y=t["y"] / 1e3),
+        swirl.Failure,
+        "scale 30 is too large.\nhint: ",
+    ),
+    "complex": (
+        lambda t: t.assign(x=t["x"] * 1j),
+        TypeError,
+        "column x of the tracks must hold numbers, but row 0 has",
+    ),
+    "truth values": (
+        lambda t: t.assign(particle=t["particle"] > 2),
+        TypeError,
+        "particle of .* but row 0 has False",
+    ),
     "no rows": (lambda t: t.iloc[:0], ValueError, "the tracks are empty"),
 }
 
@@ -194,12 +289,24 @@ def test_a_wrong_table_raises_what_is_wrong_and_where(case, tracks):
         swirl.analyse(change(table), **camera)
 
 
-@pytest.mark.parametrize("given, kind, says", [
-    ({"warmpu": 3}, TypeError, "there is no argument 'warmpu'.\nhint: .*omega, container_radius"),
-    ({"clockwise": "no"}, TypeError, "clockwise is 'no', but it must be True or False"),
-    ({"centre": 5}, TypeError, "centre is 5, but it must be two numbers"),
-    ({"omega": "1"}, TypeError, "omega is '1', but it must be a number"),
-    ({"scale": 1.0}, swirl.Failure, "scale, centre, .*is wrong.\nhint: .*with scale 33.3 they would touch")])
+@pytest.mark.parametrize(
+    "given, kind, says",
+    [
+        (
+            {"warmpu": 3},
+            TypeError,
+            "there is no argument 'warmpu'.\nhint: .*omega, container_radius",
+        ),
+        ({"clockwise": "no"}, TypeError, "clockwise is 'no', but it must be True or False"),
+        ({"centre": 5}, TypeError, "centre is 5, but it must be two numbers"),
+        ({"omega": "1"}, TypeError, "omega is '1', but it must be a number"),
+        (
+            {"scale": 1.0},
+            swirl.Failure,
+            "scale, centre, .*is wrong.\nhint: .*with scale 33.3 they would touch",
+        ),
+    ],
+)
 def test_a_wrong_scale_raises_what_is_wrong(given, kind, says, tracks):
     table, camera = tracks
     with pytest.raises(kind, match=says):
@@ -209,16 +316,31 @@ def test_a_wrong_scale_raises_what_is_wrong(given, kind, says, tracks):
 def test_any_order_and_any_type_of_numbers_will_do(tracks):
     table, camera = tracks
     expected = repr(swirl.analyse(table, **camera))
-    for same in (table.sample(frac=1, random_state=1), table.astype(float), table.astype(object),
-                 table.astype({"frame": "Int64", "particle": "Int64", "x": "Float64"})):
+    for same in (
+        table.sample(frac=1, random_state=1),
+        table.astype(float),
+        table.astype(object),
+        table.astype({"frame": "Int64", "particle": "Int64", "x": "Float64"}),
+    ):
         assert repr(swirl.analyse(same, **camera)) == expected
 
 
 # --- plots ----------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", [swirl.Table, swirl.Series, swirl.Result, swirl.Analysis, swirl.Crossing,
-                                  swirl.Snapshot, swirl.Simulation], ids=lambda kind: kind.__name__)
+@pytest.mark.parametrize(
+    "kind",
+    [
+        swirl.Table,
+        swirl.Series,
+        swirl.Result,
+        swirl.Analysis,
+        swirl.Crossing,
+        swirl.Snapshot,
+        swirl.Simulation,
+    ],
+    ids=lambda kind: kind.__name__,
+)
 def test_what_can_be_drawn_draws_into_the_given_axes(kind, instances):
     one = instances[kind]
     _, ax = plt.subplots()
@@ -230,25 +352,40 @@ def test_what_can_be_drawn_draws_into_the_given_axes(kind, instances):
 def test_a_result_draws_what_it_has(result):
     (line, counted, _) = result.plot().lines
     np.testing.assert_array_equal(line.get_ydata(), result.series["mean_by_time"])
-    np.testing.assert_array_equal(counted.get_xdata(), result.series["period"][result.series["counted"] == 1])
+    np.testing.assert_array_equal(
+        counted.get_xdata(), result.series["period"][result.series["counted"] == 1]
+    )
     (mesh,) = [c for c in result.plot("density").collections if c.get_array() is not None]
-    np.testing.assert_array_equal(np.ravel(mesh.get_array()), result.measured["density"]["by_time"].ravel())
+    np.testing.assert_array_equal(
+        np.ravel(mesh.get_array()), result.measured["density"]["by_time"].ravel()
+    )
     (line,) = result.plot("wall.profile").lines
     np.testing.assert_array_equal(line.get_ydata(), result.measured["wall"]["profile"]["pressure"])
     (line,) = result.measured["wall"].plot("traction").lines
     np.testing.assert_array_equal(line.get_ydata(), result.measured["wall"]["profile"]["traction"])
-    (mesh,) = [c for c in result.measured["density"].table.plot("by_event").collections if c.get_array() is not None]
-    np.testing.assert_array_equal(np.ravel(mesh.get_array()), result.measured["density"]["by_event"].ravel())
+    (mesh,) = [
+        c
+        for c in result.measured["density"].table.plot("by_event").collections
+        if c.get_array() is not None
+    ]
+    np.testing.assert_array_equal(
+        np.ravel(mesh.get_array()), result.measured["density"]["by_event"].ravel()
+    )
     assert result.plot("flow").collections
     alone = swirl.run(discs=5, events=3000)
     (point,) = alone.plot().containers
-    assert (point.lines[0].get_xdata(), point.lines[0].get_ydata()) == ([5], [alone.rotation.mean_by_time.mean])
+    assert (point.lines[0].get_xdata(), point.lines[0].get_ydata()) == (
+        [5],
+        [alone.rotation.mean_by_time.mean],
+    )
 
 
 def test_a_crossing_is_drawn_with_its_number(instances):
     found = instances[swirl.Crossing]
     ax = found.plot()
-    np.testing.assert_array_equal(ax.containers[0].lines[0].get_ydata(), [point["mean"] for point in found.points])
+    np.testing.assert_array_equal(
+        ax.containers[0].lines[0].get_ydata(), [point["mean"] for point in found.points]
+    )
     assert swirl.with_error(found.discs, found.error) in ax.get_legend().get_texts()[0].get_text()
 
 

@@ -1,5 +1,5 @@
-"""Arrays that outlive their owners, copies and exceptions. The slow suite runs this under valgrind, which
-checks every memory access."""
+"""Arrays that outlive their owners, copies and exceptions. The slow suite runs this under valgrind,
+which checks every memory access."""
 
 import gc
 import pickle
@@ -11,9 +11,19 @@ import swirl
 
 def views():
     sim = swirl.Simulation(discs=12)
-    s = sim.snapshot(); m = s.m_frame()
-    f = sim.sample(0.2, 50); t = f.m_frame()
-    stored = [s.position, m.velocity, f.position, f[3].spin, t.angle, f.whole_periods, s.container_centre]
+    s = sim.snapshot()
+    m = s.m_frame()
+    f = sim.sample(0.2, 50)
+    t = f.m_frame()
+    stored = [
+        s.position,
+        m.velocity,
+        f.position,
+        f[3].spin,
+        t.angle,
+        f.whole_periods,
+        s.container_centre,
+    ]
     rows = sim.step(500)
     other = pickle.loads(pickle.dumps(sim))
     del sim, s, m, f, t

@@ -9,8 +9,10 @@ import unittest
 
 SWIRL = os.environ["SWIRL"]
 SUPPRESSIONS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "suppressions.txt")
-ENVIRONMENT = {**os.environ,
-               "TSAN_OPTIONS": f"halt_on_error=1 exitcode=66 suppressions={SUPPRESSIONS}"}
+ENVIRONMENT = {
+    **os.environ,
+    "TSAN_OPTIONS": f"halt_on_error=1 exitcode=66 suppressions={SUPPRESSIONS}",
+}
 
 
 class Threads(unittest.TestCase):
@@ -19,19 +21,57 @@ class Threads(unittest.TestCase):
         self.addCleanup(self.folder.cleanup)
 
     def swirl(self, *arguments):
-        done = subprocess.run([SWIRL, *arguments], cwd=self.folder.name, env=ENVIRONMENT,
-                              capture_output=True, text=True)
+        done = subprocess.run(
+            [SWIRL, *arguments],
+            cwd=self.folder.name,
+            env=ENVIRONMENT,
+            capture_output=True,
+            text=True,
+        )
         self.assertEqual(done.returncode, 0, done.stderr[-4000:])
 
     def test_a_recorded_run(self):
-        self.swirl("run", "--discs", "12", "--events", "20000", "--trajectory", "frames.h5",
-                   "--log-events", "events.h5", "--checkpoint", "kept", "--checkpoint-every",
-                   "0.01", "--measure", "all", "--json", "result.json")
+        self.swirl(
+            "run",
+            "--discs",
+            "12",
+            "--events",
+            "20000",
+            "--trajectory",
+            "frames.h5",
+            "--log-events",
+            "events.h5",
+            "--checkpoint",
+            "kept",
+            "--checkpoint-every",
+            "0.01",
+            "--measure",
+            "all",
+            "--json",
+            "result.json",
+        )
         self.swirl("verify", "frames.h5")
 
     def test_a_sweep_with_more_threads_than_cores(self):
-        self.swirl("sweep", "--discs", "5:12", "--mu", "0.1,1", "--seeds", "2", "--events",
-                   "3000", "--frames", "30", "--measure", "slip", "--threads", "7", "--out", "sweep")
+        self.swirl(
+            "sweep",
+            "--discs",
+            "5:12",
+            "--mu",
+            "0.1,1",
+            "--seeds",
+            "2",
+            "--events",
+            "3000",
+            "--frames",
+            "30",
+            "--measure",
+            "slip",
+            "--threads",
+            "7",
+            "--out",
+            "sweep",
+        )
         self.swirl("collect", "sweep", "--csv", "table.csv")
 
     def test_a_crossing(self):

@@ -1,4 +1,5 @@
-"""tracks.camera.json, the calibration next to tracks: every field is required, once, with its type."""
+"""tracks.camera.json, the calibration next to tracks: every field is required, once, with its
+type."""
 
 import json
 import math
@@ -7,9 +8,16 @@ import unittest
 from program import InFolder, swirl
 
 FRAMES, PERIOD, SCALE = 80, 64, 20.0
-CAMERA = {"camera-fps": 60.0, "scale": SCALE, "omega": 2.0 * math.pi * 60.0 / PERIOD,
-          "centre": [100.0, 90.0], "phase": 30.0, "amplitude": 1.9, "container-radius": 4.0,
-          "clockwise": False}
+CAMERA = {
+    "camera-fps": 60.0,
+    "scale": SCALE,
+    "omega": 2.0 * math.pi * 60.0 / PERIOD,
+    "centre": [100.0, 90.0],
+    "phase": 30.0,
+    "amplitude": 1.9,
+    "container-radius": 4.0,
+    "clockwise": False,
+}
 
 
 class CameraFile(InFolder):
@@ -30,7 +38,9 @@ class CameraFile(InFolder):
         with open(self.path("tracks.camera.json"), "w", encoding="utf-8") as file:
             file.write(text)
         # These discs never touch the wall, which --max-invalid 1 permits.
-        return swirl("measure", self.path("tracks.csv"), "--max-invalid", 1, "--quiet", "--json", "-", *more)
+        return swirl(
+            "measure", self.path("tracks.csv"), "--max-invalid", 1, "--quiet", "--json", "-", *more
+        )
 
     def rejected(self, camera, *words, more=()):
         done = self.measured(camera, *more)
@@ -45,9 +55,19 @@ class CameraFile(InFolder):
         self.assertNotEqual(done.stdout, self.measured({**CAMERA, "phase": 31.0}).stdout)
 
     def test_fields_of_another_type_are_rejected(self):
-        wrong = {"clockwise": (1, 0, None, "false", []),
-                 "centre": (None, 100.0, [], [100.0], [100.0, 90.0, 0.0], ["100", 90.0],
-                            [None, 90.0], {"x": 100.0, "y": 90.0})}
+        wrong = {
+            "clockwise": (1, 0, None, "false", []),
+            "centre": (
+                None,
+                100.0,
+                [],
+                [100.0],
+                [100.0, 90.0, 0.0],
+                ["100", 90.0],
+                [None, 90.0],
+                {"x": 100.0, "y": 90.0},
+            ),
+        }
         for name in ("camera-fps", "scale", "omega", "phase", "amplitude", "container-radius"):
             wrong[name] = (None, True, "1.0", [1.0], {})
         for name, values in wrong.items():
@@ -65,19 +85,29 @@ class CameraFile(InFolder):
     def test_missing_and_repeated_fields_are_rejected(self):
         for name in CAMERA:
             with self.subTest(name=name):
-                self.rejected({key: value for key, value in CAMERA.items() if key != name}, f"{name} is missing")
+                self.rejected(
+                    {key: value for key, value in CAMERA.items() if key != name},
+                    f"{name} is missing",
+                )
                 text = json.dumps({"camera": CAMERA})
-                self.rejected(text.replace(f'"{name}"', f'"{name}": 1.0, "{name}"'), f"'{name}' appears twice")
-        self.rejected(json.dumps({"camera": CAMERA})[:-1] + ', "camera": {}}', "'camera' appears twice")
+                self.rejected(
+                    text.replace(f'"{name}"', f'"{name}": 1.0, "{name}"'), f"'{name}' appears twice"
+                )
+        self.rejected(
+            json.dumps({"camera": CAMERA})[:-1] + ', "camera": {}}', "'camera' appears twice"
+        )
 
     def test_other_json_is_rejected(self):
-        for text in ("", "{}", "[]", "null", '{"camera": []}', '{"camera": {', "{\"camera\": 1e999}"):
+        for text in ("", "{}", "[]", "null", '{"camera": []}', '{"camera": {', '{"camera": 1e999}'):
             with self.subTest(text=text):
                 self.rejected(text, "is not a calibration by `swirl track`")
 
     def test_a_table_with_a_column_twice_is_rejected(self):
         with open(self.path("tracks.csv"), "r+", encoding="utf-8") as table:
-            lines = [line.rstrip("\n") + (",x" if k == 0 else ",1.0") + "\n" for k, line in enumerate(table)]
+            lines = [
+                line.rstrip("\n") + (",x" if k == 0 else ",1.0") + "\n"
+                for k, line in enumerate(table)
+            ]
             table.seek(0)
             table.writelines(lines)
         done = self.measured(CAMERA)

@@ -9,8 +9,24 @@ import unittest
 from program import InFolder, swirl
 
 # Small, short videos that are tracked quickly.
-SMALL = ["--container-radius", 6.5, "--scale", 12, "--width", 240, "--height", 240,
-         "--frames-per-period", 40, "--noise", 2, "--quality", 14, "--seed", 3]
+SMALL = [
+    "--container-radius",
+    6.5,
+    "--scale",
+    12,
+    "--width",
+    240,
+    "--height",
+    240,
+    "--frames-per-period",
+    40,
+    "--noise",
+    2,
+    "--quality",
+    14,
+    "--seed",
+    3,
+]
 # The packing fractions equal those of 28 and 39 discs in the paper's container.
 NUMBERS = (16, 22)
 SIMULATION = ["--events", "1e4", "--seeds", 2]
@@ -27,7 +43,9 @@ class Experiment(InFolder):
         for n in NUMBERS:
             made.append(self.path(f"N{n}.mp4"))
             length = ["--length", 4.2 if n == NUMBERS[0] else 1.7]
-            done = swirl("synthetic-video", "--discs", n, *SMALL, *length, "--out", made[-1], "--quiet")
+            done = swirl(
+                "synthetic-video", "--discs", n, *SMALL, *length, "--out", made[-1], "--quiet"
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
         return made
 
@@ -44,7 +62,9 @@ class Experiment(InFolder):
         self.assertRegex(done.stdout, "N16: .*standard errors apart")
         self.assertNotRegex(done.stdout, "N22: .*standard errors apart")
         # N22 has no error.
-        self.assertRegex(done.stdout, r"rough videos next to their simulations: χ² = \S+ of 1 point\.")
+        self.assertRegex(
+            done.stdout, r"rough videos next to their simulations: χ² = \S+ of 1 point\."
+        )
         self.assertIn("N22 shows 1.7 periods, too few for an error", done.stdout)
         found = rows(out, "videos.csv")
         self.assertEqual([int(row["discs"]) for row in found], list(NUMBERS))
@@ -57,8 +77,10 @@ class Experiment(InFolder):
             self.assertLess(abs(float(row["mean_by_time"]) - float(row["simulated"])), 0.15)
             self.assertGreater(float(row["simulated_error"]), 0.0)
         points = rows(out, "points.csv")
-        self.assertEqual({(row["source"], int(row["discs"])) for row in points},
-                         {(source, n) for source in ("video", "simulation") for n in NUMBERS})
+        self.assertEqual(
+            {(row["source"], int(row["discs"])) for row in points},
+            {(source, n) for source in ("video", "simulation") for n in NUMBERS},
+        )
         for row in points:
             self.assertTrue(float(row["pancake"]) < 0.0)
         for n in NUMBERS:
@@ -73,12 +95,21 @@ class Experiment(InFolder):
         self.assertFalse(os.path.exists(os.path.join(out, "figure_4a.png")))
         for name in ("1b", "2_N16", "2_N22", "3a", "3b"):
             for kind in ("png", "pdf"):
-                self.assertGreater(os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")), 4000)
+                self.assertGreater(
+                    os.path.getsize(os.path.join(out, f"figure_{name}.{kind}")), 4000
+                )
         with open(os.path.join(out, "report.html"), encoding="utf-8") as file:
             page = file.read()
         self.assertNotRegex(page, r'(src|href)="(?!data:)')  # self-contained
-        for words in ("Figure 1b", "Figure 3a", "N16", "N22",
-                      "No video has the spins", "there is no Figure 4c", "--smooth"):
+        for words in (
+            "Figure 1b",
+            "Figure 3a",
+            "N16",
+            "N22",
+            "No video has the spins",
+            "there is no Figure 4c",
+            "--smooth",
+        ):
             self.assertIn(words, page)
         # A repeated call neither tracks nor simulates again, and gives the same tables.
         again = self.experiment(*videos, *SIMULATION, "--out", out, "--json", "-")
@@ -90,19 +121,48 @@ class Experiment(InFolder):
 
         # The videos are points for the curves of any model, with the same χ².
         with open(self.path("points.csv"), "w", encoding="utf-8") as file:
-            file.writelines(f"{row['discs']},{row['mean_by_time']},{row['mean_by_time_error']}\n" for row in
-                            [dict(discs="discs", mean_by_time="mean_by_time", mean_by_time_error="mean_by_time_error"),
-                             found[0]])
-        compared = self.assert_works("crossing", "--container-radius", 6.5, "--from", 14, "--to", 18, "--events", "1e4",
-                                     "--tolerance", 5, "--my-points", self.path("points.csv"), "--quiet")
+            file.writelines(
+                f"{row['discs']},{row['mean_by_time']},{row['mean_by_time_error']}\n"
+                for row in [
+                    dict(
+                        discs="discs",
+                        mean_by_time="mean_by_time",
+                        mean_by_time_error="mean_by_time_error",
+                    ),
+                    found[0],
+                ]
+            )
+        compared = self.assert_works(
+            "crossing",
+            "--container-radius",
+            6.5,
+            "--from",
+            14,
+            "--to",
+            18,
+            "--events",
+            "1e4",
+            "--tolerance",
+            5,
+            "--my-points",
+            self.path("points.csv"),
+            "--quiet",
+        )
         self.assertRegex(compared.stdout, r"χ² = \S+ of 1 point")
 
         # Tracks are accepted instead of videos; an invalid video is omitted.
         with open(self.path("none.mp4"), "w", encoding="utf-8") as file:
             file.write("this is no video")
-        done = self.experiment(os.path.join(out, "tracks", "N16.csv"), self.path("none.mp4"),
-                           "--smooth", os.path.join(out, "tracks", "N22.csv"), "--no-simulation",
-                           "--out", self.path("tables"), code=1)
+        done = self.experiment(
+            os.path.join(out, "tracks", "N16.csv"),
+            self.path("none.mp4"),
+            "--smooth",
+            os.path.join(out, "tracks", "N22.csv"),
+            "--no-simulation",
+            "--out",
+            self.path("tables"),
+            code=1,
+        )
         self.assertIn("1 of 3 videos could not be used", done.stderr)
         found = rows(self.path("tables"), "videos.csv")
         self.assertEqual([row["surface"] for row in found], ["rough", "rough", "smooth"])
@@ -113,11 +173,12 @@ class Experiment(InFolder):
 
     def test_invalid_options_are_rejected(self):
         for words, arguments in (
-                ("--out", ["a.mp4"]),
-                ("--fps", ["a.mp4", "--out", self.path("x"), "--fps", -1]),
-                ("--seeds", ["a.mp4", "--out", self.path("x"), "--seeds", 0]),
-                ("called 'a'", ["a.mp4", "b/a.mp4", "--out", self.path("x")]),
-                ("--mu", ["a.mp4", "--out", self.path("x"), "--mu", "-1"])):
+            ("--out", ["a.mp4"]),
+            ("--fps", ["a.mp4", "--out", self.path("x"), "--fps", -1]),
+            ("--seeds", ["a.mp4", "--out", self.path("x"), "--seeds", 0]),
+            ("called 'a'", ["a.mp4", "b/a.mp4", "--out", self.path("x")]),
+            ("--mu", ["a.mp4", "--out", self.path("x"), "--mu", "-1"]),
+        ):
             done = swirl("experiment", *arguments)
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(words, done.stderr)

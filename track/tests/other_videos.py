@@ -1,5 +1,5 @@
-"""Videos of a swirled container, made without any code of the program: spheres repelled by springs, frames
-painted with numpy. Options add faults; the ground truth is returned.
+"""Videos of a swirled container, made without any code of the program: spheres repelled by springs,
+frames painted with numpy. Options add faults; the ground truth is returned.
 
     video = make("video.mp4", seed=3, floor=40, ball=200, vignette=0.4)
     video.positions, video.centre, video.amplitude, …
@@ -12,33 +12,76 @@ import numpy
 
 USUAL = {
     # The scene, lengths in pixels.
-    "size": (320, 320), "balls": 20, "radius": 14.0, "dish": 92.0, "amplitude": 26.0,
-    "middle": (0.0, 0.0),      # of the container's path, relative to the image centre
-    "small": 0, "small_radius": 0.7,
-    "frames_per_period": 60, "frames": 84, "still_for": 0, "clockwise": False, "seed": 1,
+    "size": (320, 320),
+    "balls": 20,
+    "radius": 14.0,
+    "dish": 92.0,
+    "amplitude": 26.0,
+    "middle": (0.0, 0.0),  # of the container's path, relative to the image centre
+    "small": 0,
+    "small_radius": 0.7,
+    "frames_per_period": 60,
+    "frames": 84,
+    "still_for": 0,
+    "clockwise": False,
+    "seed": 1,
     # Appearance, in grey levels of 255.
-    "table": 110.0, "floor": 45.0, "rim": 170.0, "rim_width": 5.0, "ball": 190.0,
-    "colours": None,           # of the spheres, cyclically: (red, green, blue)
-    "tint": (1.0, 1.0, 1.0), "table_tint": (1.0, 1.0, 1.0),
-    "texture": "patches",      # none, patches, dot, stripe
-    "contrast": 0.35,          # of the texture
-    "flat": False,             # discs, not spheres
-    "gloss": 60.0, "shine": 20.0, "lamp": (-0.4, -0.3), "ambient": 0.45,
-    "shadow": 0.0, "shadow_to": (0.25, 0.25), "shadow_soft": 2.5,
-    "uneven": 0.0, "vignette": 0.0, "clutter": 0.0, "label": False, "glare": 0.0,
-    "grain": 0.0,              # of the container's floor, moves with it
+    "table": 110.0,
+    "floor": 45.0,
+    "rim": 170.0,
+    "rim_width": 5.0,
+    "ball": 190.0,
+    "colours": None,  # of the spheres, cyclically: (red, green, blue)
+    "tint": (1.0, 1.0, 1.0),
+    "table_tint": (1.0, 1.0, 1.0),
+    "texture": "patches",  # none, patches, dot, stripe
+    "contrast": 0.35,  # of the texture
+    "flat": False,  # discs, not spheres
+    "gloss": 60.0,
+    "shine": 20.0,
+    "lamp": (-0.4, -0.3),
+    "ambient": 0.45,
+    "shadow": 0.0,
+    "shadow_to": (0.25, 0.25),
+    "shadow_soft": 2.5,
+    "uneven": 0.0,
+    "vignette": 0.0,
+    "clutter": 0.0,
+    "label": False,
+    "glare": 0.0,
+    "grain": 0.0,  # of the container's floor, moves with it
     # The camera.
-    "noise": 2.0, "blur": 0.8, "gamma": 1.0, "exposure": 0.2, "flicker": 0.0, "grey": False,
-    "shake": 0.0,              # of the camera, rms of a coordinate, pixels
-    "sway": 0.0,               # of what is seen on the table, as of the shadows of leaves, pixels
+    "noise": 2.0,
+    "blur": 0.8,
+    "gamma": 1.0,
+    "exposure": 0.2,
+    "flicker": 0.0,
+    "grey": False,
+    "shake": 0.0,  # of the camera, rms of a coordinate, pixels
+    "sway": 0.0,  # of what is seen on the table, as of the shadows of leaves, pixels
     # The file.
-    "fps": "30", "codec": ("libx264", "-crf", "18"), "pixels": "yuv420p", "filter": None,
-    "drop": (), "double": (),
+    "fps": "30",
+    "codec": ("libx264", "-crf", "18"),
+    "pixels": "yuv420p",
+    "filter": None,
+    "drop": (),
+    "double": (),
 }
 
 
-MOTION = ("balls", "radius", "small", "small_radius", "dish", "amplitude", "frames_per_period", "frames",
-          "still_for", "clockwise", "seed")
+MOTION = (
+    "balls",
+    "radius",
+    "small",
+    "small_radius",
+    "dish",
+    "amplitude",
+    "frames_per_period",
+    "frames",
+    "still_for",
+    "clockwise",
+    "seed",
+)
 FILE = ("fps", "codec", "pixels", "filter", "grey", "drop", "double")
 motions = {}  # cache: videos that differ only in appearance share their motion
 paintings = {}  # cache: videos that differ only in their file share their frames
@@ -72,13 +115,17 @@ def course(s, frame):
 
 
 def moved(s, radii, rng):
-    """Positions and rotations in each frame: spring contacts, friction, drag on the floor, rolling."""
+    """Positions and rotations in each frame: spring contacts, friction, drag on the floor,
+    rolling."""
     n, steps = len(radii), 60
     dish = s["dish"]
     positions = []
-    grid = [(x, y) for x in numpy.arange(-dish, dish, 2.05 * radii.max())
-            for y in numpy.arange(-dish, dish, 2.05 * radii.max())
-            if math.hypot(x, y) + radii.max() < dish]
+    grid = [
+        (x, y)
+        for x in numpy.arange(-dish, dish, 2.05 * radii.max())
+        for y in numpy.arange(-dish, dish, 2.05 * radii.max())
+        if math.hypot(x, y) + radii.max() < dish
+    ]
     assert len(grid) >= n, "the container is too small"
     start = rng.permutation(len(grid))[:n]
     p = numpy.array([grid[k] for k in start]) + rng.normal(size=(n, 2)) * 0.01 * radii.max()
@@ -109,8 +156,11 @@ def moved(s, radii, rng):
                 if angle > 1e-9:
                     a = w / angle
                     cross = numpy.array([[0, -a[2], a[1]], [a[2], 0, -a[0]], [-a[1], a[0], 0]])
-                    turned[i] = (numpy.eye(3) + math.sin(angle) * cross
-                                 + (1.0 - math.cos(angle)) * cross @ cross) @ turned[i]
+                    turned[i] = (
+                        numpy.eye(3)
+                        + math.sin(angle) * cross
+                        + (1.0 - math.cos(angle)) * cross @ cross
+                    ) @ turned[i]
             rotations.append(turned.copy())
         for k in range(steps):
             now = frame + k * dt if s["still_for"] == 0 else max(frame, 0.0) + k * dt
@@ -125,7 +175,8 @@ def moved(s, radii, rng):
             push = numpy.where(over > 0.0, numpy.maximum(0.0, stiff * over - lossy * normal), 0.0)
             slide = rel - normal[..., None] * e
             slip = slide + (spin[:, None] * radii[:, None] + spin[None, :] * radii[None, :])[
-                ..., None] * numpy.stack([e[..., 1], -e[..., 0]], -1)
+                ..., None
+            ] * numpy.stack([e[..., 1], -e[..., 0]], -1)
             rub = numpy.minimum(lossy * numpy.sqrt((slip * slip).sum(-1)), 0.3 * push)
             slip_unit = slip / (numpy.sqrt((slip * slip).sum(-1))[..., None] + 1e-9)
             force = (push[..., None] * e - rub[..., None] * slip_unit).sum(1)
@@ -135,8 +186,9 @@ def moved(s, radii, rng):
             over_wall = numpy.maximum(0.0, far + radii - dish)
             rel_wall = v - u
             normal = (rel_wall * out).sum(-1)
-            press = numpy.where(over_wall > 0.0,
-                                numpy.maximum(0.0, stiff * over_wall + lossy * normal), 0.0)
+            press = numpy.where(
+                over_wall > 0.0, numpy.maximum(0.0, stiff * over_wall + lossy * normal), 0.0
+            )
             tangent = numpy.stack([-out[:, 1], out[:, 0]], -1)
             slip_wall = ((rel_wall * tangent).sum(-1)) + spin * radii
             rub_wall = numpy.clip(-lossy * slip_wall, -0.4 * press, 0.4 * press)
@@ -155,10 +207,13 @@ def blurred(image, sigma):
     kernel = numpy.exp(-0.5 * (x / sigma) ** 2)
     kernel /= kernel.sum()
     for axis in (0, 1):
-        wide = numpy.pad(image, [(reach, reach) if a == axis else (0, 0)
-                                   for a in range(image.ndim)], mode="edge")
-        image = sum(w * numpy.take(wide, range(k, k + image.shape[axis]), axis)
-                      for k, w in enumerate(kernel))
+        wide = numpy.pad(
+            image, [(reach, reach) if a == axis else (0, 0) for a in range(image.ndim)], mode="edge"
+        )
+        image = sum(
+            w * numpy.take(wide, range(k, k + image.shape[axis]), axis)
+            for k, w in enumerate(kernel)
+        )
     return image
 
 
@@ -169,7 +224,9 @@ def moved_image(image, shift):
         at = numpy.clip(numpy.arange(size) - by, 0, size - 1)
         low = numpy.minimum(at.astype(int), size - 2)
         share = (at - low).reshape((-1, 1) if axis == 1 else (-1, 1, 1))
-        image = (1 - share) * numpy.take(image, low, axis) + share * numpy.take(image, low + 1, axis)
+        image = (1 - share) * numpy.take(image, low, axis) + share * numpy.take(
+            image, low + 1, axis
+        )
     return image
 
 
@@ -177,8 +234,9 @@ class Painter:
     def __init__(self, s, radii, rng):
         self.s, self.radii, self.rng = s, radii, rng
         width, height = s["size"]
-        self.x, self.y = numpy.meshgrid(numpy.arange(width, dtype=float),
-                                        numpy.arange(height, dtype=float))
+        self.x, self.y = numpy.meshgrid(
+            numpy.arange(width, dtype=float), numpy.arange(height, dtype=float)
+        )
         self.table = s["table"] * numpy.ones((height, width, 3)) * numpy.array(s["table_tint"])
         if s["clutter"] > 0.0:  # bars, coins and wood grain on the table
             wood = blurred(rng.normal(size=(height, width)), 3.0)
@@ -197,18 +255,22 @@ class Painter:
         self.textures = [random_ball(rng, s["texture"]) for _ in radii]
         self.light = numpy.ones((height, width))
         if s["uneven"] > 0.0:
-            self.light *= 1.0 + s["uneven"] * ((self.x - 0.5 * width) / width
-                                               + 0.6 * (self.y - 0.5 * height) / height)
+            self.light *= 1.0 + s["uneven"] * (
+                (self.x - 0.5 * width) / width + 0.6 * (self.y - 0.5 * height) / height
+            )
         if s["vignette"] > 0.0:
             far = numpy.hypot(self.x - 0.5 * width, self.y - 0.5 * height) / (0.5 * width)
-            self.light *= 1.0 - s["vignette"] * 0.5 * far ** 2
+            self.light *= 1.0 - s["vignette"] * 0.5 * far**2
         self.lamp = numpy.array([s["lamp"][0], s["lamp"][1], 1.0])
         self.lamp /= numpy.linalg.norm(self.lamp)
 
     def colour(self, i):
         s = self.s
-        return numpy.array(s["colours"][i % len(s["colours"])], float) if s["colours"] else \
-            s["ball"] * numpy.array(s["tint"])
+        return (
+            numpy.array(s["colours"][i % len(s["colours"])], float)
+            if s["colours"]
+            else s["ball"] * numpy.array(s["tint"])
+        )
 
     def paint(self, middle, positions, turned, shake):
         s = self.s
@@ -226,11 +288,14 @@ class Painter:
             for p, a in zip(positions, self.radii):
                 q = p + a * numpy.array(s["shadow_to"])
                 d = numpy.hypot(self.x - q[0], self.y - q[1])
-                floor = floor * (1.0 - s["shadow"]
-                                 * numpy.clip(0.5 + (a - d) / (2.0 * s["shadow_soft"]), 0.0, 1.0))
+                floor = floor * (
+                    1.0
+                    - s["shadow"] * numpy.clip(0.5 + (a - d) / (2.0 * s["shadow_soft"]), 0.0, 1.0)
+                )
         # The wall is lit from one side.
-        side = ((self.x - middle[0]) * self.lamp[0] + (self.y - middle[1]) * self.lamp[1]) \
-            / numpy.maximum(far, 1.0)
+        side = (
+            (self.x - middle[0]) * self.lamp[0] + (self.y - middle[1]) * self.lamp[1]
+        ) / numpy.maximum(far, 1.0)
         rim = s["rim"] * (1.0 + 0.25 * side)
         image = image * (1.0 - in_rim) + in_rim * rim[..., None]
         image = image * (1.0 - in_dish) + in_dish * floor[..., None]
@@ -257,13 +322,18 @@ class Painter:
         else:
             lit = s["ambient"] + (1.0 - s["ambient"]) * numpy.maximum(0.0, n @ self.lamp)
         level = (1.0 + s["contrast"] * pattern) * lit
-        colour = level[..., None] * self.colour(i) if numpy.ndim(level) else \
-            numpy.ones(r.shape + (1,)) * level * self.colour(i)
+        colour = (
+            level[..., None] * self.colour(i)
+            if numpy.ndim(level)
+            else numpy.ones(r.shape + (1,)) * level * self.colour(i)
+        )
         if not s["flat"]:
             half = self.lamp + numpy.array([0.0, 0.0, 1.0])
             half /= numpy.linalg.norm(half)
-            colour = colour + (s["gloss"] * numpy.maximum(0.0, n @ half) ** (4.0 * s["shine"]))[
-                ..., None]
+            colour = (
+                colour
+                + (s["gloss"] * numpy.maximum(0.0, n @ half) ** (4.0 * s["shine"]))[..., None]
+            )
         c = cover[..., None]
         image[y0:y1, x0:x1] = (1.0 - c) * image[y0:y1, x0:x1] + c * colour
 
@@ -273,20 +343,28 @@ class Painter:
         if s["glare"] > 0.0:
             width, height = s["size"]
             gx = (0.4 + 0.2 * math.sin(0.05 * frame)) * width
-            image = image + s["glare"] * numpy.exp(
-                -((self.x - gx) ** 2 + (self.y - 0.42 * height) ** 2)
-                / (0.02 * width * width))[..., None]
+            image = (
+                image
+                + s["glare"]
+                * numpy.exp(
+                    -((self.x - gx) ** 2 + (self.y - 0.42 * height) ** 2) / (0.02 * width * width)
+                )[..., None]
+            )
         image = blurred(image, s["blur"])
         image = image * (1.0 + s["flicker"] * rng.normal())
         image = 255.0 * numpy.clip(image / 255.0, 0.0, None) ** s["gamma"]
-        image = image + s["noise"] * rng.normal(size=image.shape[:2])[..., None] \
+        image = (
+            image
+            + s["noise"] * rng.normal(size=image.shape[:2])[..., None]
             + 0.5 * s["noise"] * rng.normal(size=image.shape)
+        )
         if s["label"]:
             height = image.shape[0]
-            digits = numpy.kron((numpy.arange(60) * (frame + 7) % 5 > 1).reshape(5, 12),
-                                numpy.ones((3, 6)))
-            image[height - 20:height - 5, 6:78] = 0.0
-            image[height - 20:height - 5, 6:78][digits > 0] = 255.0
+            digits = numpy.kron(
+                (numpy.arange(60) * (frame + 7) % 5 > 1).reshape(5, 12), numpy.ones((3, 6))
+            )
+            image[height - 20 : height - 5, 6:78] = 0.0
+            image[height - 20 : height - 5, 6:78][digits > 0] = 255.0
         return numpy.clip(image + 0.5, 0.0, 255.0).astype(numpy.uint8)
 
 
@@ -301,14 +379,22 @@ def painted(s, radii):
     frames = []
     for k in range(s["frames"]):
         shake = s["shake"] * rng.normal(size=2)
-        between = [(course(s, k + o) - course(s, k), o) for o in
-                   (numpy.array([-0.33, 0.0, 0.33]) * s["exposure"] if s["exposure"] > 0 else [0.0])]
+        between = [
+            (course(s, k + o) - course(s, k), o)
+            for o in (
+                numpy.array([-0.33, 0.0, 0.33]) * s["exposure"] if s["exposure"] > 0 else [0.0]
+            )
+        ]
         sway = s["sway"] * numpy.array([math.sin(0.11 * k), math.cos(0.17 * k)])
         middle, sum_of = path_centre(s) + shake, 0.0
         for shift, o in between:
             v = positions[min(k + 1, s["frames"] - 1)] - positions[max(k - 1, 0)]
-            sum_of = sum_of + painter.paint(middle + course(s, k) + shift, positions[k] + 0.5 * o * v + middle,
-                                            rotations[k], shake + sway)
+            sum_of = sum_of + painter.paint(
+                middle + course(s, k) + shift,
+                positions[k] + 0.5 * o * v + middle,
+                rotations[k],
+                shake + sway,
+            )
         frames.append((painter.finished(sum_of / len(between), k).tobytes(), positions[k] + middle))
     return frames
 
@@ -322,13 +408,27 @@ def make(path, **faults):
     assert not unknown, unknown
     s = {**USUAL, **faults}
     radii = numpy.full(s["balls"], float(s["radius"]))
-    radii[:s["small"]] *= s["small_radius"]
+    radii[: s["small"]] *= s["small_radius"]
     look = tuple(value for name, value in s.items() if name not in FILE)
     if look not in paintings:
         paintings[look] = painted(s, radii)
     width, height = s["size"]
-    command = ["ffmpeg", "-v", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s",
-               f"{width}x{height}", "-r", s["fps"], "-i", "-"]
+    command = [
+        "ffmpeg",
+        "-v",
+        "error",
+        "-y",
+        "-f",
+        "rawvideo",
+        "-pix_fmt",
+        "rgb24",
+        "-s",
+        f"{width}x{height}",
+        "-r",
+        s["fps"],
+        "-i",
+        "-",
+    ]
     if s["filter"]:
         command += ["-vf", s["filter"]]
     command += ["-pix_fmt", "gray" if s["grey"] else s["pixels"], "-c:v", *s["codec"], str(path)]

@@ -1,5 +1,5 @@
-"""swirl track on videos made by independent code (other_videos.py), with other dynamics, appearance and
-faults. Tracks match the ground truth, or the video is rejected with the cause."""
+"""swirl track on videos made by independent code (other_videos.py), with other dynamics, appearance
+and faults. Tracks match the ground truth, or the video is rejected with the cause."""
 
 import csv
 import math
@@ -21,7 +21,9 @@ class OtherVideos(InFolder):
     def call(self, *more, **faults):
         path = self.path("video.mp4")
         video = other_videos.make(path, **faults)
-        done = swirl("track", path, "--out", self.path("tracks.csv"), "--overwrite", "--verbose", *more)
+        done = swirl(
+            "track", path, "--out", self.path("tracks.csv"), "--overwrite", "--verbose", *more
+        )
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         return video, done
@@ -35,7 +37,8 @@ class OtherVideos(InFolder):
         with open(self.path("tracks.csv"), encoding="utf-8") as file:
             for row in csv.DictReader(file):
                 here.setdefault(int(row["frame"]), []).append(
-                    (float(row["x"]), float(row["y"]), int(row["particle"])))
+                    (float(row["x"]), float(row["y"]), int(row["particle"]))
+                )
         self.assertEqual(camera["discs"], len(video.radii))
         self.assertEqual(camera["path"]["clockwise"], video.clockwise)
         tracks, off = {}, []
@@ -58,15 +61,25 @@ class OtherVideos(InFolder):
 
     # Edges give positions to 1/100 of a radius; patches of texture double the error.
     def test_bright_spheres_with_clutter(self):
-        # What moves on the table, as the shadows of leaves do, is no motion of the camera: 1.6 pixels if it were.
-        camera, _ = self.check_tracks(0.3, clutter=50, sway=2.0, label=True, vignette=0.5,
-                                      codec=("libx264", "-crf", "24"))
+        # What moves on the table, as the shadows of leaves do, is no motion of the camera: 1.6
+        # pixels if it were.
+        camera, _ = self.check_tracks(
+            0.3, clutter=50, sway=2.0, label=True, vignette=0.5, codec=("libx264", "-crf", "24")
+        )
         self.assertIsNone(camera["camera_motion"]["source"])
 
     @slow("dark discs are in track_test.py too")
     def test_dark_spheres_clockwise_in_a_portrait_video(self):
-        camera, _ = self.check_tracks(0.2, floor=205, ball=60, rim=90, table=150, clockwise=True,
-                               size=(280, 420), middle=(0, 60))
+        camera, _ = self.check_tracks(
+            0.2,
+            floor=205,
+            ball=60,
+            rim=90,
+            table=150,
+            clockwise=True,
+            size=(280, 420),
+            middle=(0, 60),
+        )
         self.assertEqual(camera["discs_are"], "dark")
 
     @slow("the bright spheres above check the lens too; texture only makes that harder")
@@ -75,21 +88,35 @@ class OtherVideos(InFolder):
         self.assertEqual(camera["lens"]["distortion"], 0.0)
 
     def test_spheres_of_both_brightnesses_are_tracked(self):
-        # Light from one side shifts dark and bright spheres in opposite directions: 1.1 pixels; the limit is a tenth
-        # of the radius.
-        camera, _ = self.check_tracks(1.4, floor=120.0, ball=180.0, colours=((225, 225, 225), (25, 25, 25)),
-                                      texture="none", gloss=0.0, seed=2)
+        # Light from one side shifts dark and bright spheres in opposite directions: 1.1 pixels; the
+        # limit is a tenth of the radius.
+        camera, _ = self.check_tracks(
+            1.4,
+            floor=120.0,
+            ball=180.0,
+            colours=((225, 225, 225), (25, 25, 25)),
+            texture="none",
+            gloss=0.0,
+            seed=2,
+        )
         self.assertEqual(camera["discs_are"], "dark and bright")
         self.assertGreater(camera["quality"]["position_error"], 0.7)
 
     def test_dropped_and_duplicated_frames_are_rejected(self):
-        for word, faults in some((("missing", {"drop": (20, 41, 42)}),
-                                  ("duplicated", {"double": (20, 41, 60)}),
-                                  ("duplicated", {"double": tuple(range(84)), "fps": "60"})), 2):
+        for word, faults in some(
+            (
+                ("missing", {"drop": (20, 41, 42)}),
+                ("duplicated", {"double": (20, 41, 60)}),
+                ("duplicated", {"double": tuple(range(84)), "fps": "60"}),
+            ),
+            2,
+        ):
             _, done = self.call(**faults)
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(word, done.stderr)
-            self.assertIn("--correct-frames " + word.replace("duplicated", "duplicates"), done.stderr)
+            self.assertIn(
+                "--correct-frames " + word.replace("duplicated", "duplicates"), done.stderr
+            )
             self.assertEqual(self.left_behind(), ["video.mp4"])
 
     def test_accepted_duplicates_and_missing_frames_are_corrected(self):
@@ -112,15 +139,21 @@ class OtherVideos(InFolder):
         for row in rows:
             d = numpy.array(video.positions[int(row["frame"])]) - [float(row["x"]), float(row["y"])]
             self.assertLess(numpy.hypot(d[:, 0], d[:, 1]).min(), 2.0)  # filled in by straight lines
-        for call in (("--from", -1), ("--from", 9, "--to", 8), ("--skip", "4-"), ("--correct-frames", "all"),
-                     ("--to", 9, "--max-frames", 9)):
+        for call in (
+            ("--from", -1),
+            ("--from", 9, "--to", 8),
+            ("--skip", "4-"),
+            ("--correct-frames", "all"),
+            ("--to", 9, "--max-frames", 9),
+        ):
             done = swirl("track", self.path("video.mp4"), "--out", self.path("no.csv"), *call)
             self.assertEqual(done.returncode, 2, done.stderr)
 
     def test_camera_shake_is_removed(self):
         # As accurate as without shake: 0.19 pixels. The second video has no pattern on the table.
-        for faults, source in some((({"shake": 5.0, "clutter": 50}, "background"),
-                                    ({"shake": 3.0}, "rim")), 1):
+        for faults, source in some(
+            (({"shake": 5.0, "clutter": 50}, "background"), ({"shake": 3.0}, "rim")), 1
+        ):
             video, done = self.call(**faults)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertNotIn("duplicated", done.stderr)
@@ -133,7 +166,9 @@ class OtherVideos(InFolder):
             with open(self.path("tracks.csv"), encoding="utf-8") as file:
                 off = []
                 for row in csv.DictReader(file):
-                    d = video.positions[int(row["frame"])] - numpy.array([float(row["x_seen"]), float(row["y_seen"])])
+                    d = video.positions[int(row["frame"])] - numpy.array(
+                        [float(row["x_seen"]), float(row["y_seen"])]
+                    )
                     off.append(d[numpy.hypot(d[:, 0], d[:, 1]).argmin()])
             self.assertLess(math.sqrt(numpy.mean(numpy.square(off))), 0.3)
             if source == "background":
@@ -146,8 +181,10 @@ class OtherVideos(InFolder):
         folder = os.path.join(os.environ["SWIRL_SOURCE"], "..", "shared", "real_textures")
         if not os.path.isdir(folder):
             self.skipTest("there is no folder ../shared/real_textures")
-        for name, radius, container, max_rms in (("discs", 27.50, 236.5, 0.1),
-                                                 ("hydrogel", 20.224, 173.92, 0.3)):
+        for name, radius, container, max_rms in (
+            ("discs", 27.50, 236.5, 0.1),
+            ("hydrogel", 20.224, 173.92, 0.3),
+        ):
             video = os.path.join(folder, f"hybrid_{name}_36")
             done = swirl("track", video + ".mp4", "--out", self.path("tracks.csv"), "--overwrite")
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -158,11 +195,16 @@ class OtherVideos(InFolder):
             true = {}
             with open(video + ".truth.csv", encoding="utf-8") as file:
                 for row in csv.DictReader(file):
-                    true.setdefault(int(row["frame"]), []).append((float(row["x"]), float(row["y"])))
+                    true.setdefault(int(row["frame"]), []).append(
+                        (float(row["x"]), float(row["y"]))
+                    )
             off = []
             with open(self.path("tracks.csv"), encoding="utf-8") as file:
                 for row in csv.DictReader(file):
-                    d = numpy.array(true[int(row["frame"])]) - [float(row["x_seen"]), float(row["y_seen"])]
+                    d = numpy.array(true[int(row["frame"])]) - [
+                        float(row["x_seen"]),
+                        float(row["y_seen"]),
+                    ]
                     off.append(d[numpy.hypot(d[:, 0], d[:, 1]).argmin()])
             rms = math.sqrt(numpy.mean(numpy.square(off)))
             self.assertLess(rms, max_rms)

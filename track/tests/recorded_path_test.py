@@ -10,8 +10,28 @@ from program import InFolder, main, swirl
 
 # Twenty discs of radius 12 pixels in a container of 6.5 radii; 48 frames per period.
 SCALE, FRAMES = 12, 48
-VIDEO = ["--discs", 20, "--container-radius", 6.5, "--scale", SCALE, "--width", 240, "--height", 240,
-         "--frames-per-period", FRAMES, "--noise", 2, "--quality", 14, "--seed", 3, "--fps", 60]
+VIDEO = [
+    "--discs",
+    20,
+    "--container-radius",
+    6.5,
+    "--scale",
+    SCALE,
+    "--width",
+    240,
+    "--height",
+    240,
+    "--frames-per-period",
+    FRAMES,
+    "--noise",
+    2,
+    "--quality",
+    14,
+    "--seed",
+    3,
+    "--fps",
+    60,
+]
 NUMBER = r"[\d.]+"
 
 
@@ -39,7 +59,16 @@ class Recorded:
 
 class RecordedPath(InFolder):
     def video(self, *more, name="shaker.mp4", length=3.2):
-        done = swirl("synthetic-video", *VIDEO, "--length", length, "--out", self.path(name), "--quiet", *more)
+        done = swirl(
+            "synthetic-video",
+            *VIDEO,
+            "--length",
+            length,
+            "--out",
+            self.path(name),
+            "--quiet",
+            *more,
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         return self.path(name)
 
@@ -64,21 +93,30 @@ class RecordedPath(InFolder):
         radius_error = path.number("scale error", "%") / 100.0
         # Within three of the stated errors: of the points, and of the disc radius in pixels.
         radii = [math.hypot(x, y) for _, x, y in path.points[:-1]]
-        self.assertLess(abs(sum(radii) / 120 - 1.892), 3 * math.hypot(point_error, radius_error * 1.892))
+        self.assertLess(
+            abs(sum(radii) / 120 - 1.892), 3 * math.hypot(point_error, radius_error * 1.892)
+        )
         self.assertLess(max(radii) - min(radii), 10 * point_error)
         for column in (1, 2):
             self.assertLess(abs(sum(point[column] for point in path.points[:-1]) / 120), 1e-6)
         self.assertLess(point_error, 0.05)  # the error of the lens dominates
         period, error = path.stated("period", "s")
         self.assertLess(abs(period - FRAMES / 60), 3 * error + 0.5e-4)  # the rounding of its digits
-        # A run on it rotates as on the circle, within the errors of the two averages and that of the scale. ϖ
-        # changes by less than 0.4 per unit of the amplitude here, and of the container's radius.
+        # A run on it rotates as on the circle, within the errors of the two averages and that of
+        # the scale. ϖ changes by less than 0.4 per unit of the amplitude here, and of the
+        # container's radius.
         self.assertIn(f"swirl run --path {self.path('path.csv')} --container-radius R", done.stdout)
         options = "--path", self.path("path.csv"), "--container-radius", 6.5
-        ours, circle = self.rotation(*options), self.rotation("--path", "circle", "--container-radius", 6.5)
-        self.assertLess(abs(ours[0] - circle[0]), 3 * math.hypot(ours[1], circle[1]) + 0.4 * 8.4 * radius_error)
+        ours, circle = self.rotation(*options), self.rotation(
+            "--path", "circle", "--container-radius", 6.5
+        )
+        self.assertLess(
+            abs(ours[0] - circle[0]), 3 * math.hypot(ours[1], circle[1]) + 0.4 * 8.4 * radius_error
+        )
         # The tracks of the same video have the same motion.
-        both, done = self.record(self.path("shaker.mp4"), "--out", self.path("tracks.csv"), name="both.csv")
+        both, done = self.record(
+            self.path("shaker.mp4"), "--out", self.path("tracks.csv"), name="both.csv"
+        )
         self.assertIn("both.csv: motion of the container", done.stdout)
         wall = float(re.search(rf"--container-radius ({NUMBER})", done.stdout)[1])
         self.assertLess(abs(wall / 6.5 - 1), 3 * radius_error)
@@ -89,16 +127,37 @@ class RecordedPath(InFolder):
     def test_lines_and_ellipses(self):
         for name, shape, ratio in (("line", "line", 0.0), ("ellipse", "ellipse:0.4", 0.4)):
             with self.subTest(shape):
-                path, _ = self.record(self.video("--path", shape, name=f"{name}.mp4"), name=f"{name}.csv")
-                error = 3 * math.hypot(path.number("standard error of a coordinate", "disc radii"),
-                                       path.number("scale error", "%") / 100.0 * 1.892)
+                path, _ = self.record(
+                    self.video("--path", shape, name=f"{name}.mp4"), name=f"{name}.csv"
+                )
+                error = 3 * math.hypot(
+                    path.number("standard error of a coordinate", "disc radii"),
+                    path.number("scale error", "%") / 100.0 * 1.892,
+                )
                 self.assertLess(abs(path.extent(1) - 1.892), error)
                 self.assertLess(abs(path.extent(2) - ratio * 1.892), error)
-                done = swirl("run", "--path", self.path(f"{name}.csv"), "--container-radius", 6.5, "--discs", 20,
-                             "--periods", 5, "--quiet")
+                done = swirl(
+                    "run",
+                    "--path",
+                    self.path(f"{name}.csv"),
+                    "--container-radius",
+                    6.5,
+                    "--discs",
+                    20,
+                    "--periods",
+                    5,
+                    "--quiet",
+                )
                 self.assertEqual(done.returncode, 0, done.stderr)
         # Discs in such a container cannot be tracked.
-        done = swirl("track", self.path("line.mp4"), "--out", self.path("t.csv"), "--path-out", self.path("p.csv"))
+        done = swirl(
+            "track",
+            self.path("line.mp4"),
+            "--out",
+            self.path("t.csv"),
+            "--path-out",
+            self.path("p.csv"),
+        )
         self.assertEqual(done.returncode, 1)
         self.assertIn("does not move along a circle", done.stderr)
         self.assertIn("--path", done.stderr)
@@ -106,28 +165,41 @@ class RecordedPath(InFolder):
 
     def test_a_recorded_path_is_seen_from_above(self):
         # The ellipse is clockwise and begins elsewhere; y is up.
-        path, _ = self.record(self.video("--path", "ellipse:0.5", "--direction", "clockwise", "--path-phase", 90))
+        path, _ = self.record(
+            self.video("--path", "ellipse:0.5", "--direction", "clockwise", "--path-phase", 90)
+        )
         area = sum(a[1] * b[2] - b[1] * a[2] for a, b in zip(path.points, path.points[1:]))
         self.assertLess(area, 0.0)
         self.assertLess(abs(path.points[0][1]), 0.05)
         self.assertLess(path.points[0][2], -0.8)
 
     def test_what_cannot_be_recorded(self):
-        skipped = ",".join(f"{FRAMES * k + 20}-{FRAMES * k + 31}" for k in range(2))  # a quarter of each period
+        skipped = ",".join(
+            f"{FRAMES * k + 20}-{FRAMES * k + 31}" for k in range(2)
+        )  # a quarter of each period
         moving = self.video(length=2.2)
         self.record(moving)
-        for video, more, says in ((self.video("--camera-on-container", name="still.mp4", length=1.3), (), "stands still"),
-                                  (self.video(length=1.3, name="short.mp4"), (), "at least two"),
-                                  (moving, ("--skip", skipped), "gap")):
-            self.assert_fails(1, "track", video, "--path-out", self.path("p.csv"), *more, says=(says, "hint:"))
+        for video, more, says in (
+            (self.video("--camera-on-container", name="still.mp4", length=1.3), (), "stands still"),
+            (self.video(length=1.3, name="short.mp4"), (), "at least two"),
+            (moving, ("--skip", skipped), "gap"),
+        ):
+            self.assert_fails(
+                1, "track", video, "--path-out", self.path("p.csv"), *more, says=(says, "hint:")
+            )
             self.assertFalse(os.path.exists(self.path("p.csv")))
-        for more, code, says in ((("--path-out", self.path("p.txt")), 2, ".csv"), ((), 2, "--path-out"),
-                                 (("--path-out", self.path("p.csv"), "--json", "-"), 2, "--out"),
-                                 (("--path-out", self.path("p.csv"), "--spin"), 2, "--out")):
+        for more, code, says in (
+            (("--path-out", self.path("p.txt")), 2, ".csv"),
+            ((), 2, "--path-out"),
+            (("--path-out", self.path("p.csv"), "--json", "-"), 2, "--out"),
+            (("--path-out", self.path("p.csv"), "--spin"), 2, "--out"),
+        ):
             done = swirl("track", moving, *more)
             self.assertEqual(done.returncode, code)
             self.assertIn(says, done.stderr)
-        self.assert_fails(1, "track", moving, "--path-out", self.path("path.csv"), says="--overwrite")
+        self.assert_fails(
+            1, "track", moving, "--path-out", self.path("path.csv"), says="--overwrite"
+        )
 
 
 if __name__ == "__main__":

@@ -15,11 +15,47 @@ import subprocess
 from program import ALL, InFolder, main, slow, some, swirl
 
 # Twenty discs of radius 12 pixels in a container of 6.5 radii, 64 frames per period.
-SMALL = ["--discs", 20, "--container-radius", 6.5, "--scale", 12, "--width", 240, "--height", 240,
-         "--frames-per-period", 64, "--noise", 2, "--quality", 14, "--seed", 3]
+SMALL = [
+    "--discs",
+    20,
+    "--container-radius",
+    6.5,
+    "--scale",
+    12,
+    "--width",
+    240,
+    "--height",
+    240,
+    "--frames-per-period",
+    64,
+    "--noise",
+    2,
+    "--quality",
+    14,
+    "--seed",
+    3,
+]
 # The same with discs of radius 16 pixels.
-LARGER = ["--discs", 20, "--container-radius", 6.5, "--scale", 16, "--width", 340, "--height", 340,
-          "--frames-per-period", 64, "--noise", 2, "--quality", 14, "--seed", 3]
+LARGER = [
+    "--discs",
+    20,
+    "--container-radius",
+    6.5,
+    "--scale",
+    16,
+    "--width",
+    340,
+    "--height",
+    340,
+    "--frames-per-period",
+    64,
+    "--noise",
+    2,
+    "--quality",
+    14,
+    "--seed",
+    3,
+]
 
 
 def rows(path):
@@ -37,12 +73,16 @@ def positions(path, x="x", y="y"):
     found = {}
     for row in rows(path):
         if row.get("seen", "1") == "1":
-            found.setdefault(int(row["frame"]), {})[int(row["particle"])] = (float(row[x]), float(row[y]))
+            found.setdefault(int(row["frame"]), {})[int(row["particle"])] = (
+                float(row[x]),
+                float(row[y]),
+            )
     return found
 
 
 class Score:
-    """Tracks against the ground truth, each as {frame: {id: (x, y)}}: rms error and identity swaps."""
+    """Tracks against the ground truth, each as {frame: {id: (x, y)}}: rms error and identity
+    swaps."""
 
     def __init__(self, truth, found, about):
         radius = about["scale"]
@@ -51,8 +91,13 @@ class Score:
         for frame, discs in truth.items():
             hits = 0
             for disc, (x, y) in discs.items():
-                near = min(((math.hypot(u - x, v - y), track)
-                            for track, (u, v) in found.get(frame, {}).items()), default=(1e9, -1))
+                near = min(
+                    (
+                        (math.hypot(u - x, v - y), track)
+                        for track, (u, v) in found.get(frame, {}).items()
+                    ),
+                    default=(1e9, -1),
+                )
                 if near[0] > 0.5 * radius:
                     continue
                 hits += 1
@@ -72,7 +117,7 @@ class Truth:
     """The ground truth next to a video."""
 
     def __init__(self, video):
-        with open(video[:-len(".mp4")] + ".truth.json", encoding="utf-8") as file:
+        with open(video[: -len(".mp4")] + ".truth.json", encoding="utf-8") as file:
             self.about = json.load(file)
 
 
@@ -82,8 +127,11 @@ class Comparison(Score):
     def __init__(self, video, tracks):
         self.truth = Truth(video).about
         self.found = calibration(tracks)
-        super().__init__(positions(video[:-len(".mp4")] + ".truth.csv", "x_ideal", "y_ideal"),
-                         positions(tracks), self.truth)
+        super().__init__(
+            positions(video[: -len(".mp4")] + ".truth.csv", "x_ideal", "y_ideal"),
+            positions(tracks),
+            self.truth,
+        )
         fps = self.found["fps"]
         self.omega = self.found["path"]["omega"] / fps / self.truth["omega"] - 1.0
         self.centre = math.dist(self.found["path"]["centre"], self.truth["centre"])
@@ -95,7 +143,7 @@ class SpinComparison:
     """Spins in tracks against the ground truth, in Ω."""
 
     def __init__(self, video, tracks):
-        stem = video[:-len(".mp4")]
+        stem = video[: -len(".mp4")]
         with open(stem + ".truth.json", encoding="utf-8") as file:
             truth = json.load(file)
         found = calibration(tracks)
@@ -113,8 +161,11 @@ class SpinComparison:
             position = float(row["x"]), float(row["y"])
             distance, disc = min((math.dist(position, (x, y)), disc) for x, y, disc in here[frame])
             steps = range(frame - step + 1, frame + step + 1)
-            if distance > 0.3 * truth["scale"] or any((k, disc) not in turns for k in steps) \
-                    or frame < step:
+            if (
+                distance > 0.3 * truth["scale"]
+                or any((k, disc) not in turns for k in steps)
+                or frame < step
+            ):
                 continue
             true = sum(turns[k, disc] for k in steps) / (2 * step) / truth["omega"]
             self.pairs.append((true, float(row["spin"]) / omega))
@@ -145,21 +196,31 @@ class TrackTest(InFolder):
 
     def standard(self):
         """The standard video next to its ground truth, which tests share."""
+
         def make(folder):
             os.mkdir(folder)
             self.video(name=os.path.join(folder, "video.mp4"))
+
         return os.path.join(self.shared("standard", make), "video.mp4")
 
     def standard_tracks(self):
-        """The standard video and a folder with its tracks, result, report and messages, which tests share."""
+        """The standard video and a folder with its tracks, result, report and messages, which tests
+        share."""
         video = self.standard()
 
         def make(folder):
             os.mkdir(folder)
-            _, said = self.track(video, "--json", os.path.join(folder, "found.json"), "--report",
-                                 os.path.join(folder, "report"), name=os.path.join(folder, "tracks.csv"))
+            _, said = self.track(
+                video,
+                "--json",
+                os.path.join(folder, "found.json"),
+                "--report",
+                os.path.join(folder, "report"),
+                name=os.path.join(folder, "tracks.csv"),
+            )
             with open(os.path.join(folder, "said"), "w", encoding="utf-8") as file:
                 file.write(said)
+
         return video, self.shared("tracked", make)
 
     def assert_rejected(self, code, *words, call):
@@ -176,12 +237,29 @@ class TrackTest(InFolder):
             table.write("frame,particle,x,y\n")
             for row in rows(video[:-4] + ".truth.csv"):
                 table.write(f"{row['frame']},{row['particle']},{row['x_ideal']},{row['y_ideal']}\n")
-        of_truth = swirl("measure", self.path("truth.csv"), "--camera-fps", 1, "--scale",
-                         truth["scale"], "--omega", truth["omega"], "--centre",
-                         "%r,%r" % tuple(truth["centre"]), "--phase", truth["phase"], "--amplitude",
-                         truth["amplitude"] / truth["scale"], "--container-radius",
-                         truth["container_radius"] / truth["scale"], "--json", "-")
-        of_video = swirl("measure", tracks, "--json", "-")  # the calibration next to the tracks is used
+        of_truth = swirl(
+            "measure",
+            self.path("truth.csv"),
+            "--camera-fps",
+            1,
+            "--scale",
+            truth["scale"],
+            "--omega",
+            truth["omega"],
+            "--centre",
+            "%r,%r" % tuple(truth["centre"]),
+            "--phase",
+            truth["phase"],
+            "--amplitude",
+            truth["amplitude"] / truth["scale"],
+            "--container-radius",
+            truth["container_radius"] / truth["scale"],
+            "--json",
+            "-",
+        )
+        of_video = swirl(
+            "measure", tracks, "--json", "-"
+        )  # the calibration next to the tracks is used
         values = []
         for done in (of_truth, of_video):
             self.assertEqual(done.returncode, 0, done.stderr)
@@ -189,11 +267,19 @@ class TrackTest(InFolder):
         self.assertLess(abs(values[0] - values[1]), 0.02)  # of Ω, in little more than one period
 
     def test_tilt_is_measured_and_corrected(self):
-        # 8 degrees need the correction most. Without tilt none may be found, see test_rotation_from_a_video.
+        # 8 degrees need the correction most. Without tilt none may be found, see
+        # test_rotation_from_a_video.
         for degrees in some((8, 0, 3), 1):
             with self.subTest(degrees=degrees):
-                video = self.video("--tilt", degrees, "--tilt-towards", 250, length=1.1, of=LARGER,
-                                 name=f"tilt{degrees}.mp4")
+                video = self.video(
+                    "--tilt",
+                    degrees,
+                    "--tilt-towards",
+                    250,
+                    length=1.1,
+                    of=LARGER,
+                    name=f"tilt{degrees}.mp4",
+                )
                 tracks, said = self.track(video, name=f"tilt{degrees}.csv")
                 result = Comparison(video, tracks)
                 lens = result.found["lens"]
@@ -203,7 +289,9 @@ class TrackTest(InFolder):
                 else:
                     self.assertLess(abs(lens["tilt"] - degrees), 3.0 * lens["tilt_error"])
                     self.assertLess(lens["tilt_error"], 0.6)
-                    self.assertLess(abs(lens["tilt_towards"] - 250.0), 3.0 * lens["tilt_towards_error"])
+                    self.assertLess(
+                        abs(lens["tilt_towards"] - 250.0), 3.0 * lens["tilt_towards_error"]
+                    )
                 # As accurate as from above.
                 self.assertEqual(result.complete, 1.0)
                 self.assertLess(result.rms, 0.2)
@@ -211,7 +299,8 @@ class TrackTest(InFolder):
                 self.assertLess(abs(result.amplitude), 0.3)
                 self.assertLess(abs(result.omega), 5e-4)
                 self.assert_true_rotation(video, tracks, result.truth)
-        # A given tilt is used, and none with --tilt 0. (Without a correction, the limits above fail, too.)
+        # A given tilt is used, and none with --tilt 0. (Without a correction, the limits above
+        # fail, too.)
         video = self.path("tilt8.mp4")
         given, _ = self.track(video, "--tilt", "8,250", "--quiet", name="given.csv")
         self.assertLess(Comparison(video, given).rms, 0.2)
@@ -225,8 +314,15 @@ class TrackTest(InFolder):
             self.assertIn("20 discs", file.read())
         with open(os.path.join(folder, "report/report.html"), encoding="utf-8") as file:
             report = file.read()
-        for part in ("Results", "20, bright", "frames with all discs", "Over time",
-                     "counter-clockwise", "data:image/png;base64,", "swirl track"):
+        for part in (
+            "Results",
+            "20, bright",
+            "frames with all discs",
+            "Over time",
+            "counter-clockwise",
+            "data:image/png;base64,",
+            "swirl track",
+        ):
             self.assertIn(part, report)
         for row in rows(os.path.join(folder, "report/frames.csv")):
             self.assertLessEqual(int(row["seen"]) + int(row["filled"]) + int(row["missing"]), 20)
@@ -238,7 +334,7 @@ class TrackTest(InFolder):
         self.assertEqual(result.found["lens"]["tilt"], 0.0)
         self.assertGreater(result.complete, 0.95)
         self.assertEqual(result.swaps, 0)
-        self.assertLess(result.rms, 0.4)          # a thirtieth of a radius
+        self.assertLess(result.rms, 0.4)  # a thirtieth of a radius
         self.assertLess(abs(result.omega), 5e-4)
         self.assertLess(result.centre, 0.3)
         self.assertLess(abs(result.amplitude), 0.3)
@@ -250,15 +346,28 @@ class TrackTest(InFolder):
             video = self.video("--max-frames", 3, "--overwrite", *more)
             with open(video, "rb") as images, open(video[:-4] + ".truth.csv", "rb") as truth:
                 return images.read(), truth.read()
+
         images, truth = made()
         self.assertEqual(made(), (images, truth))
-        for option in (("--rolling-shutter", 0.5), ("--interlaced",), ("--auto-exposure", 0.3), ("--hand-time", 0.02),
-                       ("--floor-pattern", 40), ("--disc-variation", 0.2), ("--transparency", 0.5), ("--flat",)):
+        for option in (
+            ("--rolling-shutter", 0.5),
+            ("--interlaced",),
+            ("--auto-exposure", 0.3),
+            ("--hand-time", 0.02),
+            ("--floor-pattern", 40),
+            ("--disc-variation", 0.2),
+            ("--transparency", 0.5),
+            ("--flat",),
+        ):
             with self.subTest(option):
                 changed = made(*option)
                 self.assertEqual(changed[1], truth)
                 self.assertNotEqual(changed[0], images)
-        for option, value in (("--rolling-shutter", 2), ("--transparency", -0.1), ("--hand-time", 100)):
+        for option, value in (
+            ("--rolling-shutter", 2),
+            ("--transparency", -0.1),
+            ("--hand-time", 100),
+        ):
             done = swirl("synthetic-video", option, value, "--out", self.path("wrong.mp4"))
             self.assertEqual(done.returncode, 2)
             self.assertIn(option, done.stderr)
@@ -274,11 +383,28 @@ class TrackTest(InFolder):
         for first, rows_ in some((("top", "odd"), ("bottom", "even")), 1):
             with self.subTest(first=first):
                 video = self.path(first + ".mp4")
-                subprocess.run(["ffmpeg", "-v", "error", "-i", made, "-vf", f"tinterlace=interleave_{first}",
-                                "-crf", "14", video], check=True)
+                subprocess.run(
+                    [
+                        "ffmpeg",
+                        "-v",
+                        "error",
+                        "-i",
+                        made,
+                        "-vf",
+                        f"tinterlace=interleave_{first}",
+                        "-crf",
+                        "14",
+                        video,
+                    ],
+                    check=True,
+                )
                 tracks, said = self.track(video, name=first + ".csv")
                 self.assertIn(f"the video is interlaced: the {rows_} rows", said)
-                score = Score({k // 2: discs for k, discs in faster.items() if k % 2 == 0}, positions(tracks), about)
+                score = Score(
+                    {k // 2: discs for k, discs in faster.items() if k % 2 == 0},
+                    positions(tracks),
+                    about,
+                )
                 self.assertGreater(score.complete, 0.95)
                 self.assertEqual(score.swaps, 0)
                 # The limit of test_rotation_from_a_video. The fields are 1.1 pixels apart.
@@ -295,18 +421,46 @@ class TrackTest(InFolder):
         self.track(video, "--quiet", "--overwrite", name="same.h5")
         results = []
         for tracks in (os.path.join(folder, "tracks.csv"), recording):
-            done = swirl("measure", tracks, "--measure", "density,temperature,pinned", "--json", "-")
+            done = swirl(
+                "measure", tracks, "--measure", "density,temperature,pinned", "--json", "-"
+            )
             self.assertEqual(done.returncode, 0, done.stderr)
-            results.append({key: value for key, value in json.loads(done.stdout).items() if key != "file"})
+            results.append(
+                {key: value for key, value in json.loads(done.stdout).items() if key != "file"}
+            )
         self.assertEqual(*results)
-        self.assert_rejected(2, "must end with .csv or .h5",
-                             call=swirl("track", video, "--out", self.path("tracks.txt")))
+        self.assert_rejected(
+            2,
+            "must end with .csv or .h5",
+            call=swirl("track", video, "--out", self.path("tracks.txt")),
+        )
         os.truncate(recording, os.path.getsize(recording) // 2)
         self.assertEqual(swirl("measure", recording).returncode, 1)
 
     def test_spins_match_the_ground_truth(self):
-        video = self.video(of=["--discs", 20, "--container-radius", 6.5, "--scale", 16, "--width", 300, "--height", 300,
-                               "--frames-per-period", 64, "--noise", 2, "--quality", 0, "--seed", 3], length=1.1)
+        video = self.video(
+            of=[
+                "--discs",
+                20,
+                "--container-radius",
+                6.5,
+                "--scale",
+                16,
+                "--width",
+                300,
+                "--height",
+                300,
+                "--frames-per-period",
+                64,
+                "--noise",
+                2,
+                "--quality",
+                0,
+                "--seed",
+                3,
+            ],
+            length=1.1,
+        )
         tracks, _ = self.track(video, "--spin")
         spins = SpinComparison(video, tracks)
         self.assertGreater(len(spins.pairs), 800)
@@ -336,15 +490,27 @@ class TrackTest(InFolder):
         shifts = []
         for frame, discs in true.items():
             for x, y in discs.values():
-                u, v = min(found[frame].values(), key=lambda p, x=x, y=y: math.hypot(p[0] - x, p[1] - y))
+                u, v = min(
+                    found[frame].values(), key=lambda p, x=x, y=y: math.hypot(p[0] - x, p[1] - y)
+                )
                 if math.hypot(u - x, v - y) < 8.0:
                     shifts.append((u - x, v - y))
         return [sum(s[k] for s in shifts) / len(shifts) for k in (0, 1)]
 
     def test_light_from_one_side_does_not_shift_discs(self):
         # Four periods. In two, the error of the shift is a half of it.
-        video = self.video("--light-from", 135, "--light-elevation", 45, "--light-share", 0.8,
-                           "--gloss", 60, of=LARGER, length=4)
+        video = self.video(
+            "--light-from",
+            135,
+            "--light-elevation",
+            45,
+            "--light-share",
+            0.8,
+            "--gloss",
+            60,
+            of=LARGER,
+            length=4,
+        )
         tracks, said = self.track(video)
         self.assertIn("from one side; shifts discs by", said)
         result = Comparison(video, tracks)
@@ -363,13 +529,43 @@ class TrackTest(InFolder):
         self.assertGreater(claimed, 0.7)
         self.assertLess(claimed, 1.5)
         # The container is as large as with light from above.
-        self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.01)
+        self.assertLess(
+            abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.01
+        )
 
     def test_low_contrast_with_strong_compression_gives_no_tiny_discs(self):
         # Contrast 1.3:1. Compression leaves texture of 4 pixels, which once gave 211 discs.
-        video = self.video(of=["--discs", 28, "--width", 640, "--height", 480, "--scale", 15, "--frames-per-period", 64,
-                               "--floor-level", 100, "--contrast", 1.3, "--rim-level", 110, "--gloss", 10, "--texture",
-                               0.2, "--light-elevation", 45, "--noise", 3, "--quality", 29], length=1.1)
+        video = self.video(
+            of=[
+                "--discs",
+                28,
+                "--width",
+                640,
+                "--height",
+                480,
+                "--scale",
+                15,
+                "--frames-per-period",
+                64,
+                "--floor-level",
+                100,
+                "--contrast",
+                1.3,
+                "--rim-level",
+                110,
+                "--gloss",
+                10,
+                "--texture",
+                0.2,
+                "--light-elevation",
+                45,
+                "--noise",
+                3,
+                "--quality",
+                29,
+            ],
+            length=1.1,
+        )
         # Edges do not show these balls, but their shading does.
         for percent in re.findall(r"([0-9.]+) %", self.track(video)[1]):
             self.assertLessEqual(float(percent), 100.0)
@@ -393,22 +589,37 @@ class TrackTest(InFolder):
         of[of.index("--frames-per-period") + 1] = 32
         for readout, seed in some(((0.8, 3), (0.4, 5)), 1):
             with self.subTest(readout=readout):
-                video = self.video("--rolling-shutter", readout, of=[*of[:-1], seed], length=2, name=f"{seed}.mp4")
+                video = self.video(
+                    "--rolling-shutter", readout, of=[*of[:-1], seed], length=2, name=f"{seed}.mp4"
+                )
                 tracks, said = self.track(video, name=f"{seed}.csv")
-                self.assertRegex(said, r"reads a frame in 0\.\d+ ± 0\.\d+ of a frame interval; corrected")
+                self.assertRegex(
+                    said, r"reads a frame in 0\.\d+ ± 0\.\d+ of a frame interval; corrected"
+                )
                 result = Comparison(video, tracks)
                 lens = result.found["lens"]
                 self.assertLess(abs(lens["readout"] - readout), 4.0 * lens["readout_error"])
                 self.assertLess(lens["readout_error"], 0.05)
                 self.assertEqual((result.complete, result.swaps, lens["tilt"]), (1.0, 0, 0.0))
                 self.assertLess(result.rms, 0.4)  # pixels, the limit of test_rotation_from_a_video
-                self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.01)
+                self.assertLess(
+                    abs(
+                        result.found["container"]["radius"] / result.truth["container_radius"] - 1.0
+                    ),
+                    0.01,
+                )
                 self.assert_true_rotation(video, tracks, result.truth)
 
     def test_pattern_of_the_floor_is_removed(self):
         # As a student's video: 15 frames per period; two periods show all of the floor.
-        video = self.video("--floor-pattern", 60, "--disc-variation", 0.25, length=2,
-                           of=["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23])
+        video = self.video(
+            "--floor-pattern",
+            60,
+            "--disc-variation",
+            0.25,
+            length=2,
+            of=["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23],
+        )
         tracks, printed = self.track(video)
         self.assertIn("the floor of the container has a pattern", printed)
         result = Comparison(video, tracks)
@@ -416,56 +627,115 @@ class TrackTest(InFolder):
         self.assertGreater(result.complete, 0.9)
         self.assertLess(result.rms, 1.0)  # pixels, a twentieth of a radius; 0.66 measured
         self.assertLess(abs(result.radius), 0.03)
-        self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.02)
+        self.assertLess(
+            abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.02
+        )
         # A number that the frames contradict is rejected.
         rejected = swirl("track", video, "--discs", 40, "--out", self.path("none.csv"))
         self.assertEqual(rejected.returncode, 1, rejected.stderr)
-        self.assertRegex(rejected.stderr, r"--discs is 40, but (the video shows|most frames show) \d+")
+        self.assertRegex(
+            rejected.stderr, r"--discs is 40, but (the video shows|most frames show) \d+"
+        )
         self.assertFalse(os.path.exists(self.path("none.csv")))
 
     def test_a_number_that_the_video_contradicts_is_rejected_with_both(self):
         video = self.standard()
         for given in some((40, 9), 1):
-            self.assert_rejected(1, f"--discs is {given}", "20", call=swirl(
-                "track", video, "--discs", given, "--out", self.path("tracks.csv")))
+            self.assert_rejected(
+                1,
+                f"--discs is {given}",
+                "20",
+                call=swirl("track", video, "--discs", given, "--out", self.path("tracks.csv")),
+            )
 
     def test_discs_outside_the_frame_are_not_overlooked(self):
-        # Cut by 30 pixels, the container is whole in a part of each period; by 90, never. Then 19 of 20 discs are found.
+        # Cut by 30 pixels, the container is whole in a part of each period; by 90, never. Then 19
+        # of 20 discs are found.
         whole = self.standard()
+
         def cut(width):
-            subprocess.run(["ffmpeg", "-v", "error", "-i", whole, "-vf", f"crop={width}:240:0:0", "-qp", "14",
-                            self.path(f"{width}.mp4")], check=True)
+            subprocess.run(
+                [
+                    "ffmpeg",
+                    "-v",
+                    "error",
+                    "-i",
+                    whole,
+                    "-vf",
+                    f"crop={width}:240:0:0",
+                    "-qp",
+                    "14",
+                    self.path(f"{width}.mp4"),
+                ],
+                check=True,
+            )
             return self.path(f"{width}.mp4")
+
         tracks, said = self.track(cut(210), name="210.csv")
         self.assertEqual(calibration(tracks)["discs"], 20)
         self.assertIn("not entirely in the frame", said)
         cut(150)
         for given in ([], ["--discs", 20]):
-            self.assert_rejected(1, "others may be outside the frame", "of the container's rim lies outside", call=swirl(
-                "track", self.path("150.mp4"), "--out", self.path("tracks.csv"), *given))
+            self.assert_rejected(
+                1,
+                "others may be outside the frame",
+                "of the container's rim lies outside",
+                call=swirl("track", self.path("150.mp4"), "--out", self.path("tracks.csv"), *given),
+            )
 
     def test_possible_identity_swaps_are_named(self):
-        # A hand covers discs at the beginning. What swaps is named with its frame; without a hand, nothing is.
+        # A hand covers discs at the beginning. What swaps is named with its frame; without a hand,
+        # nothing is.
         student = ["--camera", "student", "--discs", 28, "--quality", 23]
         for seed in some((4, 5, 6), 1):
-            video = self.video("--hand-time", 0.7, "--seed", seed, of=student, length=2, name=f"hand{seed}.mp4")
+            video = self.video(
+                "--hand-time", 0.7, "--seed", seed, of=student, length=2, name=f"hand{seed}.mp4"
+            )
             tracks, said = self.track(video, name=f"hand{seed}.csv")
             score = Comparison(video, tracks)
             possible = score.found["quality"]["possible_swaps"]
             for frame, *discs in score.swapped:
-                # Links go to both ends of the video, so a swap is in one of the frames next to a gap of up to three.
-                self.assertTrue(any(set(discs) & set(swap["discs"]) and abs(swap["frame"] - frame) <= 4
-                                    for swap in possible), (seed, frame, discs))
-            self.assertIn("{} and {} in frame {}".format(*possible[0]["discs"], possible[0]["frame"]), said)
+                # Links go to both ends of the video, so a swap is in one of the frames next to a
+                # gap of up to three.
+                self.assertTrue(
+                    any(
+                        set(discs) & set(swap["discs"]) and abs(swap["frame"] - frame) <= 4
+                        for swap in possible
+                    ),
+                    (seed, frame, discs),
+                )
+            self.assertIn(
+                "{} and {} in frame {}".format(*possible[0]["discs"], possible[0]["frame"]), said
+            )
 
     def test_discs_that_fly_fast_are_tracked_where_they_bounce(self):
-        # At up to four times the container's speed, 15 frames per period. A bounce is no outlier, and no disc is on
-        # the floor where it would be without one.
-        video = self.video("--discs", 3, "--scale", 12, "--width", 280, "--height", 280, "--frames-per-period", 15,
-                           "--noise", 2, "--quality", 14, "--seed", 4, of=[], length=2)
+        # At up to four times the container's speed, 15 frames per period. A bounce is no outlier,
+        # and no disc is on the floor where it would be without one.
+        video = self.video(
+            "--discs",
+            3,
+            "--scale",
+            12,
+            "--width",
+            280,
+            "--height",
+            280,
+            "--frames-per-period",
+            15,
+            "--noise",
+            2,
+            "--quality",
+            14,
+            "--seed",
+            4,
+            of=[],
+            length=2,
+        )
         tracks, said = self.track(video)
         score = Comparison(video, tracks)
-        self.assertIn("may err more than claimed", said)  # no contacts between discs, which would show it
+        self.assertIn(
+            "may err more than claimed", said
+        )  # no contacts between discs, which would show it
         self.assertEqual((score.found["discs"], score.swaps), (3, 0))
         self.assertGreater(score.complete, 0.95)  # 0.80 without bounces
         self.assertLess(score.rms, 0.4)  # pixels, the limit of test_rotation_from_a_video
@@ -483,7 +753,10 @@ class TrackTest(InFolder):
         done = swirl("measure", tracks, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
 
-    @slow("two videos of 300 frames; a container that rests twice is in test_a_container_moved_by_hand")
+    @slow(
+        "two videos of 300 frames; a container that rests twice is in "
+        "test_a_container_moved_by_hand"
+    )
     def test_a_container_that_rests_in_most_frames(self):
         # 15 frames per period, of which one in three shows the container moving.
         few = list(SMALL)
@@ -496,21 +769,34 @@ class TrackTest(InFolder):
         score = Comparison(video, tracks)
         self.assertEqual((score.found["discs"], score.swaps), (20, 0))
         self.assertGreater(score.complete, 0.95)
-        self.assertLess(score.rms, 0.6)  # pixels, a twentieth of a radius; 0.45 measured, 0.40 claimed
+        self.assertLess(
+            score.rms, 0.6
+        )  # pixels, a twentieth of a radius; 0.45 measured, 0.40 claimed
         # One in five is too few, also to learn the floor: discs at rest look like its pattern.
         video = self.video(*rests, of=few, length=9.4, name="floor.mp4")
-        self.assert_rejected(1, "the frames contradict that", "hint: ", call=swirl(
-            "track", video, "--out", self.path("none.csv")))
+        self.assert_rejected(
+            1,
+            "the frames contradict that",
+            "hint: ",
+            call=swirl("track", video, "--out", self.path("none.csv")),
+        )
         self.assertFalse(os.path.exists(self.path("none.csv")))
 
     def test_dark_and_bright_discs_are_tracked_together(self):
-        video = self.video("--disc-level", 40, "--other-level", 215, "--floor-level", 125, "--gloss", 0, of=LARGER)
+        video = self.video(
+            "--disc-level", 40, "--other-level", 215, "--floor-level", 125, "--gloss", 0, of=LARGER
+        )
         tracks, said = self.track(video)
         self.assertNotIn("not tracked", said)
         score = Comparison(video, tracks)
-        self.assertEqual((score.found["discs"], score.found["discs_are"], score.swaps), (20, "dark and bright", 0))
+        self.assertEqual(
+            (score.found["discs"], score.found["discs_are"], score.swaps),
+            (20, "dark and bright", 0),
+        )
         self.assertGreater(score.complete, 0.9)
-        self.assertLess(score.rms, 0.8)  # pixels, a twentieth of a radius; 0.58 measured: light shifts them apart
+        self.assertLess(
+            score.rms, 0.8
+        )  # pixels, a twentieth of a radius; 0.58 measured: light shifts them apart
         self.assertLess(abs(score.radius), 0.02)
 
     def assert_true_phase(self, video, tracks, score):
@@ -524,8 +810,8 @@ class TrackTest(InFolder):
             y = truth["centre"][1] - float(row["y_ideal"])
             found = start + path["omega"] * (times[frame] - times[min(times)])
             worst = max(worst, abs(math.remainder(math.atan2(y, x) - found, 2.0 * math.pi)))
-        # The rim is known to 0.1 pixels, and the amplitude is 23 pixels; the error of one frame of 275
-        # may be four standard deviations, 0.02 rad. The phase changes by 0.1 rad per frame.
+        # The rim is known to 0.1 pixels, and the amplitude is 23 pixels; the error of one frame of
+        # 275 may be four standard deviations, 0.02 rad. The phase changes by 0.1 rad per frame.
         self.assertLess(worst, 0.03)
 
     def test_a_phantom_is_named_with_its_frame(self):
@@ -546,16 +832,32 @@ class TrackTest(InFolder):
         self.assertNotIn("--scale", call.stderr)
 
     def test_pixels_that_are_not_square(self):
-        # Frames of three quarters of the width, as camcorders record them; the file gives the ratio.
+        # Frames of three quarters of the width, as camcorders record them; the file gives the
+        # ratio.
         video = self.video(of=LARGER)
         anamorphic = self.path("anamorphic.mp4")
-        subprocess.run(["ffmpeg", "-v", "error", "-i", video, "-vf", "scale=256:340,setsar=85/64", "-qp", "10",
-                        anamorphic], check=True)
+        subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-i",
+                video,
+                "-vf",
+                "scale=256:340,setsar=85/64",
+                "-qp",
+                "10",
+                anamorphic,
+            ],
+            check=True,
+        )
         tracks, _ = self.track(anamorphic)
         found, truth = calibration(tracks), Truth(video).about
         self.assertEqual((found["size"], found["discs"]), ([340, 340], 20))
         self.assertLess(abs(found["container"]["radius"] / truth["container_radius"] - 1.0), 0.01)
-        score = Score(positions(video[:-4] + ".truth.csv", "x_ideal", "y_ideal"), positions(tracks), truth)
+        score = Score(
+            positions(video[:-4] + ".truth.csv", "x_ideal", "y_ideal"), positions(tracks), truth
+        )
         self.assertLess(score.rms, 0.3)  # pixels; 0.1 for square pixels
 
     def test_a_killed_ffmpeg_is_an_error(self):
@@ -564,31 +866,68 @@ class TrackTest(InFolder):
         # ffmpeg ends in the middle of the frames: killed, or after a signal that it handles.
         for end in ("kill -KILL $$", "exit 255"):
             with open(os.path.join(folder, "ffmpeg"), "w", encoding="utf-8") as script:
-                script.write(f"""#!/bin/sh
+                script.write(
+                    f"""#!/bin/sh
 case "$*" in *image2pipe*) '{shutil.which("ffmpeg")}' "$@" | head -c 3000000; {end} ;; esac
 exec '{shutil.which("ffmpeg")}' "$@"
-""")
+"""
+                )
             os.chmod(os.path.join(folder, "ffmpeg"), 0o755)
             path = folder + os.pathsep + os.environ["PATH"]
-            self.assert_rejected(1, "before the end of", call=swirl(
-                "track", video, "--out", self.path("tracks.csv"), environment={"PATH": path}))
+            self.assert_rejected(
+                1,
+                "before the end of",
+                call=swirl(
+                    "track", video, "--out", self.path("tracks.csv"), environment={"PATH": path}
+                ),
+            )
 
     @slow("six videos of two periods; the wall of most other tests is reached in every frame")
     def test_container_radius_with_few_discs(self):
         # Four discs bounce off the wall about three times per period. With fewer contacts, the
         # program uses the rim.
         for discs in (4, 8, 12, 16, 24, 36):
-            video = self.video(of=["--discs", discs, "--width", 400, "--height", 400, "--scale", 15,
-                                   "--frames-per-period", 60, "--quality", 18, "--start", 25], length=2,
-                               name=f"of{discs}.mp4")
+            video = self.video(
+                of=[
+                    "--discs",
+                    discs,
+                    "--width",
+                    400,
+                    "--height",
+                    400,
+                    "--scale",
+                    15,
+                    "--frames-per-period",
+                    60,
+                    "--quality",
+                    18,
+                    "--start",
+                    25,
+                ],
+                length=2,
+                name=f"of{discs}.mp4",
+            )
             tracks, _ = self.track(video, name=f"of{discs}.csv")
             result = Comparison(video, tracks)
             radius = result.found["container"]["radius"] / result.truth["container_radius"]
             self.assertLess(abs(radius - 1.0), 0.005, discs)
 
     def test_mirrored_video_with_dark_discs(self):
-        video = self.video("--mirrored", "--disc-level", 60, "--floor-level", 200, "--rim-level", 90,
-                         "--table-level", 150, "--gloss", 120, "--texture", 0.1)
+        video = self.video(
+            "--mirrored",
+            "--disc-level",
+            60,
+            "--floor-level",
+            200,
+            "--rim-level",
+            90,
+            "--table-level",
+            150,
+            "--gloss",
+            120,
+            "--texture",
+            0.1,
+        )
         tracks, said = self.track(video)
         result = Comparison(video, tracks)
         self.assertTrue(result.found["path"]["clockwise"])
@@ -596,7 +935,9 @@ exec '{shutil.which("ffmpeg")}' "$@"
         self.assertEqual(result.found["discs"], 20)
         self.assertIn("clockwise in the image", said)
         self.assertLess(result.rms, 0.4)
-        self.assertLess(abs((result.found["path"]["phase"] - result.truth["phase"] + 180) % 360 - 180), 1.0)
+        self.assertLess(
+            abs((result.found["path"]["phase"] - result.truth["phase"] + 180) % 360 - 180), 1.0
+        )
 
     @slow("a video of its own for a special case, which ends in a warning")
     def test_radius_comes_from_the_rim_if_discs_are_rarely_at_the_wall(self):
@@ -606,11 +947,15 @@ exec '{shutil.which("ffmpeg")}' "$@"
         self.assertNotIn("the smaller radius is used", said)
         result = Comparison(video, tracks)
         # Within the width of the drawn wall; in most frames the discs stay farther inside.
-        self.assertLess(abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.06)
+        self.assertLess(
+            abs(result.found["container"]["radius"] / result.truth["container_radius"] - 1.0), 0.06
+        )
 
     def test_coarse_polygonal_paths_are_reported(self):
         three = self.video("--sides", 3, name="three.mp4")
-        self.assert_rejected(1, "few sides", call=swirl("track", three, "--out", self.path("tracks.csv")))
+        self.assert_rejected(
+            1, "few sides", call=swirl("track", three, "--out", self.path("tracks.csv"))
+        )
         _, said = self.track(self.video("--sides", 4))
         self.assertIn("as on a polygon of few sides", said)
 
@@ -627,10 +972,24 @@ exec '{shutil.which("ffmpeg")}' "$@"
     def test_numbered_images_give_the_same_tracks_as_the_video(self):
         video, folder = self.standard_tracks()
         os.makedirs(self.path("seen"))
-        subprocess.run(["ffmpeg", "-v", "error", "-i", video, "-pix_fmt", "gray",
-                        "-start_number", "100",
-                        self.path("seen/%05d.png")], check=True)
-        of_images, _ = self.track(self.path("seen/%05d.png"), "--fps", 60, "--quiet", name="images.csv")
+        subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-i",
+                video,
+                "-pix_fmt",
+                "gray",
+                "-start_number",
+                "100",
+                self.path("seen/%05d.png"),
+            ],
+            check=True,
+        )
+        of_images, _ = self.track(
+            self.path("seen/%05d.png"), "--fps", 60, "--quiet", name="images.csv"
+        )
         with open(os.path.join(folder, "tracks.csv"), "rb") as one, open(of_images, "rb") as other:
             self.assertTrue(one.read() == other.read())
 
@@ -639,36 +998,91 @@ exec '{shutil.which("ffmpeg")}' "$@"
         out = self.path("tracks.csv")
         self.assert_rejected(1, "stands still", call=swirl("track", still, "--out", out))
         empty = self.path("empty.mp4")
-        subprocess.run(["ffmpeg", "-v", "error", "-f", "lavfi", "-i",
-                        "nullsrc=s=240x240:r=30:d=2,geq=lum='100+30*random(1)':cb=128:cr=128",
-                        empty], check=True)
+        subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-f",
+                "lavfi",
+                "-i",
+                "nullsrc=s=240x240:r=30:d=2,geq=lum='100+30*random(1)':cb=128:cr=128",
+                empty,
+            ],
+            check=True,
+        )
         self.assert_rejected(1, "no container found", call=swirl("track", empty, "--out", out))
-        whole, partly = self.video(of=[*SMALL[:11], 32, *SMALL[12:]], name="whole.mp4", length=1.2), self.path("part.mp4")
-        subprocess.run(["ffmpeg", "-v", "error", "-i", whole, "-vf", "crop=130:240:110:0", "-qp", "14", partly],
-                       check=True)
-        self.assert_rejected(1, "of the container's rim lies outside the frame",
-                             call=swirl("track", partly, "--out", out))
+        whole, partly = self.video(
+            of=[*SMALL[:11], 32, *SMALL[12:]], name="whole.mp4", length=1.2
+        ), self.path("part.mp4")
+        subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-i",
+                whole,
+                "-vf",
+                "crop=130:240:110:0",
+                "-qp",
+                "14",
+                partly,
+            ],
+            check=True,
+        )
+        self.assert_rejected(
+            1,
+            "of the container's rim lies outside the frame",
+            call=swirl("track", partly, "--out", out),
+        )
         with open(still, "rb") as file:
             part = file.read()[:20000]
-        for name, content in (("cut.mp4", part[:-2000] if b"moov" not in part else part[:30]),
-                              ("text.mp4", b"this is no video")):
+        for name, content in (
+            ("cut.mp4", part[:-2000] if b"moov" not in part else part[:30]),
+            ("text.mp4", b"this is no video"),
+        ):
             with open(self.path(name), "wb") as file:
                 file.write(content)
-            self.assert_rejected(1, "no readable frames", call=swirl("track", self.path(name), "--out", out))
-        self.assert_rejected(1, "there is no video", call=swirl("track", self.path("none.mp4"), "--out", out))
-        self.assert_rejected(1, "no frames named", call=swirl("track", self.path("no%05d.png"), "--out", out))
+            self.assert_rejected(
+                1, "no readable frames", call=swirl("track", self.path(name), "--out", out)
+            )
+        self.assert_rejected(
+            1, "there is no video", call=swirl("track", self.path("none.mp4"), "--out", out)
+        )
+        self.assert_rejected(
+            1, "no frames named", call=swirl("track", self.path("no%05d.png"), "--out", out)
+        )
 
     def test_a_camera_or_a_stream_must_be_recorded_first(self):
         os.mkfifo(self.path("pipe"))
-        for source in ("/dev/video0", "/dev/video77", "/dev/zero", "-", "/dev/stdin", "rtsp://camera/a%20b",
-                       "https://example.org/dish.mp4", self.path("pipe")):
+        for source in (
+            "/dev/video0",
+            "/dev/video77",
+            "/dev/zero",
+            "-",
+            "/dev/stdin",
+            "rtsp://camera/a%20b",
+            "https://example.org/dish.mp4",
+            self.path("pipe"),
+        ):
             with self.subTest(source):
-                self.assert_rejected(2, "must be a file", "hint: record it first",
-                                     call=swirl("track", source, "--out", self.path("tracks.csv")))
-        self.assert_rejected(2, "is a folder", "%05d.png",
-                             call=swirl("track", self.path("."), "--out", self.path("tracks.csv")))
-        self.assert_rejected(2, "there is no option --live", call=swirl(
-            "track", "--live", "/dev/video0", "--out", self.path("tracks.csv")))
+                self.assert_rejected(
+                    2,
+                    "must be a file",
+                    "hint: record it first",
+                    call=swirl("track", source, "--out", self.path("tracks.csv")),
+                )
+        self.assert_rejected(
+            2,
+            "is a folder",
+            "%05d.png",
+            call=swirl("track", self.path("."), "--out", self.path("tracks.csv")),
+        )
+        self.assert_rejected(
+            2,
+            "there is no option --live",
+            call=swirl("track", "--live", "/dev/video0", "--out", self.path("tracks.csv")),
+        )
 
     def test_errors_of_a_damaged_video_are_reported_with_quiet(self):
         with open(self.video(length=0.8), "rb") as file:
@@ -677,30 +1091,48 @@ exec '{shutil.which("ffmpeg")}' "$@"
             data[k] = (73 * k) % 256
         with open(self.path("damaged.mp4"), "wb") as file:
             file.write(data)
-        done = swirl("track", self.path("damaged.mp4"), "--out", self.path("tracks.csv"), "--to", 48, "--quiet")
+        done = swirl(
+            "track",
+            self.path("damaged.mp4"),
+            "--out",
+            self.path("tracks.csv"),
+            "--to",
+            48,
+            "--quiet",
+        )
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         self.assertEqual(done.stdout, "")
         self.assertIn("ffmpeg reports", done.stderr)
 
     def track_changed(self, video, name, *arguments, of_input=()):
-        subprocess.run(["ffmpeg", "-v", "error", *of_input, "-i", video, *arguments, self.path(name)], check=True)
+        subprocess.run(
+            ["ffmpeg", "-v", "error", *of_input, "-i", video, *arguments, self.path(name)],
+            check=True,
+        )
         return self.track(self.path(name), name=name[:-4] + ".csv")
 
     def test_the_rotation_flag_of_a_video_is_applied(self):
-        help_text = subprocess.run(["ffmpeg", "-hide_banner", "-h", "full"], capture_output=True, text=True).stdout
+        help_text = subprocess.run(
+            ["ffmpeg", "-hide_banner", "-h", "full"], capture_output=True, text=True
+        ).stdout
         if "-display_rotation" in help_text:  # from ffmpeg 6 on, instead of the metadata
             turn = dict(of_input=["-display_rotation:v:0", "90"])
             metadata = []
         else:
             turn = {}
             metadata = ["-metadata:s:v:0", "rotate=90"]
-        tracks, _ = self.track_changed(self.standard(), "turned.mp4", "-c", "copy", *metadata, **turn)
+        tracks, _ = self.track_changed(
+            self.standard(), "turned.mp4", "-c", "copy", *metadata, **turn
+        )
         found = calibration(tracks)
         self.assertEqual(found["discs"], 20)
         self.assertLess(abs((found["path"]["phase"] - 90.0 + 180.0) % 360.0 - 180.0), 1.0)
 
-    @slow("four more videos; each fault ends in a warning, so a defect here gives no wrong numbers silently")
+    @slow(
+        "four more videos; each fault ends in a warning, so a defect here gives no wrong numbers "
+        "silently"
+    )
     def test_typical_faults_of_phone_videos(self):
         video = self.standard()
 
@@ -709,18 +1141,33 @@ exec '{shutil.which("ffmpeg")}' "$@"
 
         _, said = changed("two.mp4", "-vf", "split[a][b];[a][b]hstack", "-qp", "14")
         self.assertIn("second circle of the container's size", said)
-        tracks, said = changed("hand.mp4", "-vf", "drawbox=x=0:y=0:w=110:h=240:color=0x9a8070:t=fill:"
-                               "enable='between(n,25,40)'", "-qp", "14")
+        tracks, said = changed(
+            "hand.mp4",
+            "-vf",
+            "drawbox=x=0:y=0:w=110:h=240:color=0x9a8070:t=fill:" "enable='between(n,25,40)'",
+            "-qp",
+            "14",
+        )
         self.assertIn("perhaps a hand", said)
         after = positions(tracks)
         for frame in range(48, 70):
             self.assertEqual(len(after[frame]), 20, frame)  # all discs are found again
         self.assertNotIn("leaves these frames out", said)
         for enable, option in (("lt(n,7)", "--from 7"), ("gt(n,66)", "--to 66")):
-            _, said = changed(option[2:4] + ".mp4", "-vf", "drawbox=x=130:y=0:w=110:h=240:color=0x9a8070:t=fill:"
-                              f"enable='{enable}'", "-qp", "14")
-            self.assertIn(f"perhaps a hand; a disc may have different IDs before and after; {option} leaves", said)
-        tracks, said = changed("uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr", "-qp", "14")
+            _, said = changed(
+                option[2:4] + ".mp4",
+                "-vf",
+                "drawbox=x=130:y=0:w=110:h=240:color=0x9a8070:t=fill:" f"enable='{enable}'",
+                "-qp",
+                "14",
+            )
+            self.assertIn(
+                f"perhaps a hand; a disc may have different IDs before and after; {option} leaves",
+                said,
+            )
+        tracks, said = changed(
+            "uneven.mp4", "-vf", "select='not(mod(n,7))+mod(n,2)'", "-vsync", "vfr", "-qp", "14"
+        )
         self.assertIn("frame rate varies", said)
         done = swirl("measure", tracks, "--quiet")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -728,19 +1175,46 @@ exec '{shutil.which("ffmpeg")}' "$@"
 
     def with_times(self, video, name, times):
         """The same frames with other times: an expression of N, in frames."""
-        subprocess.run(["ffmpeg", "-v", "error", "-i", video, "-vf", f"setpts='({times})/60/TB'",
-                        "-fps_mode", "passthrough", "-enc_time_base", "1/600", "-c:v", "libx264",
-                        "-bf", "0", "-qp", "10", self.path(name)], check=True)
+        subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-i",
+                video,
+                "-vf",
+                f"setpts='({times})/60/TB'",
+                "-fps_mode",
+                "passthrough",
+                "-enc_time_base",
+                "1/600",
+                "-c:v",
+                "libx264",
+                "-bf",
+                "0",
+                "-qp",
+                "10",
+                self.path(name),
+            ],
+            check=True,
+        )
         return self.path(name)
 
     def test_frames_that_share_a_time(self):
         video = self.standard()
         # Frame 40 has the time of frame 39, or the other way round; three frames have one time.
-        for name, times, untimed in some((("late.mkv", "if(eq(N,40),39,N)", {39, 40}),
-                                          ("early.mkv", "if(eq(N,39),40,N)", {39, 40}),
-                                          ("three.mkv", "if(between(N,39,41),39,N)", {39, 40, 41})), 1):
+        for name, times, untimed in some(
+            (
+                ("late.mkv", "if(eq(N,40),39,N)", {39, 40}),
+                ("early.mkv", "if(eq(N,39),40,N)", {39, 40}),
+                ("three.mkv", "if(between(N,39,41),39,N)", {39, 40, 41}),
+            ),
+            1,
+        ):
             with self.subTest(times=times):
-                tracks, said = self.track(self.with_times(video, name, times), name=name[:-4] + ".csv")
+                tracks, said = self.track(
+                    self.with_times(video, name, times), name=name[:-4] + ".csv"
+                )
                 self.assertIn(f"{len(untimed)} of the 74 frames", said)
                 self.assertIn("the first at frame 39", said)
                 self.assertNotIn("damaged", said)
@@ -765,12 +1239,21 @@ exec '{shutil.which("ffmpeg")}' "$@"
         video = self.standard()
         out = self.path("tracks.csv")
         # An hour passes between two frames; every other frame shares its time.
-        for name, times, word in some((("period.mkv", "if(gte(N,40),N+47,N)", "half a period"),
-                                       ("pause.mkv", "if(gte(N,40),N+216000,N)", "3.6e+03 s pass"),
-                                       ("half.mkv", "2*floor(N/2)", "do not ascend")), 1):
+        for name, times, word in some(
+            (
+                ("period.mkv", "if(gte(N,40),N+47,N)", "half a period"),
+                ("pause.mkv", "if(gte(N,40),N+216000,N)", "3.6e+03 s pass"),
+                ("half.mkv", "2*floor(N/2)", "do not ascend"),
+            ),
+            1,
+        ):
             with self.subTest(times=times):
-                self.assert_rejected(1, word, "--fps", call=swirl(
-                    "track", self.with_times(video, name, times), "--out", out))
+                self.assert_rejected(
+                    1,
+                    word,
+                    "--fps",
+                    call=swirl("track", self.with_times(video, name, times), "--out", out),
+                )
         if not ALL:
             return
         # A gap of 30 frames is shorter than half a period, so the video is not rejected.
@@ -778,14 +1261,20 @@ exec '{shutil.which("ffmpeg")}' "$@"
         self.assertIn("frame rate varies", said)
 
     def test_invalid_options_are_rejected(self):
-        for words, arguments in ((["--out"], []), ([".csv"], ["--out", self.path("x.txt")]),
-                                 (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),
-                                 (["--discs"], ["--out", self.path("x.csv"), "--discs", 0]),
-                                 (["--tilt"], ["--out", self.path("x.csv"), "--tilt", "5"])):
+        for words, arguments in (
+            (["--out"], []),
+            ([".csv"], ["--out", self.path("x.txt")]),
+            (["--fps"], ["--out", self.path("x.csv"), "--fps", -1]),
+            (["--discs"], ["--out", self.path("x.csv"), "--discs", 0]),
+            (["--tilt"], ["--out", self.path("x.csv"), "--tilt", "5"]),
+        ):
             call = swirl("track", "video.mp4", *arguments)
             self.assert_rejected(2, *words, call=call)
-        self.assert_rejected(2, "one of laboratory", call=swirl("synthetic-video", "--camera", "x", "--out",
-                                                        self.path("x.mp4")))
+        self.assert_rejected(
+            2,
+            "one of laboratory",
+            call=swirl("synthetic-video", "--camera", "x", "--out", self.path("x.mp4")),
+        )
         self.assert_rejected(2, ".mp4", call=swirl("synthetic-video", "--out", self.path("x.avi")))
         self.assertEqual(self.left_behind(), [])
 

@@ -1,25 +1,31 @@
-// The page's address: the parameters, a number of events to run to, and the points of the plot. It is all that the page
-// stores, so that two tabs have nothing in common, and nothing can be full or blocked.
+// The page's address: the parameters, a number of events to run to, and the points of the plot. It
+// is all that the page stores, so that two tabs have nothing in common, and nothing can be full or
+// blocked.
 import type {Laboratory} from "./laboratory";
 import {addressOf} from "./share";
 import {isEmbedded, pageEntry, setPageEntry, startParameters} from "./start";
 import {fill, texts} from "./texts";
 
-const maxEvents = 1e7, maxBeside = 300;
+const maxEvents = 1e7,
+    maxBeside = 300;
 
-/** The number of discs of the container next to the first: the one in the address, or for a new visitor a few. Undefined
- *  if there is none. */
+/** The number of discs of the container next to the first: the one in the address, or for a new
+ *  visitor a few. Undefined if there is none. */
 export function readBeside(lab: Laboratory, isNew: boolean): string | undefined {
     const text = pageEntry("beside") ?? (isNew && !isEmbedded() ? "8" : undefined);
     if (text === undefined) return undefined;
     const isValid = /^\d+$/.test(text) && Number(text) >= 1 && Number(text) <= maxBeside;
     setPageEntry("beside", isValid ? text : undefined);
-    if (!isValid) lab.warn(fill(texts.invalidNumber, {name: "beside", text, from: 1, to: maxBeside}));
+    if (!isValid)
+        lab.warn(fill(texts.invalidNumber, {name: "beside", text, from: 1, to: maxBeside}));
     return isValid ? text : undefined;
 }
 
-/** The parameters in the address, and the number of events to run to. Undefined after an error message. */
-export function readAddress(lab: Laboratory): {given: Record<string, string>; events: number} | undefined {
+/** The parameters in the address, and the number of events to run to. Undefined after an error
+ *  message. */
+export function readAddress(
+    lab: Laboratory,
+): {given: Record<string, string>; events: number} | undefined {
     const given: Record<string, string> = {};
     let events = 0;
     for (const [name, value] of startParameters(lab.isParameter)) {
@@ -35,11 +41,13 @@ export function readAddress(lab: Laboratory): {given: Record<string, string>; ev
 }
 
 /** A random seed of four digits. */
-export const newSeed = (): string => String(1000 + crypto.getRandomValues(new Uint32Array(1))[0]! % 9000);
+export const newSeed = (): string =>
+    String(1000 + (crypto.getRandomValues(new Uint32Array(1))[0]! % 9000));
 
 const settling = 250; // milliseconds; browsers allow about three changes per second
 
-/** Keeps the address up to date. `fragment` is its part after #. Returns a function to call when that has changed. */
+/** Keeps the address up to date. `fragment` is its part after #. Returns a function to call when
+ *  that has changed. */
 export function followAddress(lab: Laboratory, fragment: () => string): () => void {
     let later: ReturnType<typeof setTimeout> | undefined;
     const write = (): void => {
@@ -52,8 +60,12 @@ export function followAddress(lab: Laboratory, fragment: () => string): () => vo
             // In some browsers the address of a local file cannot be changed.
         }
     };
-    const follow = (): void => { later ??= setTimeout(write, settling); };
+    const follow = (): void => {
+        later ??= setTimeout(write, settling);
+    };
     lab.on("given", follow);
-    addEventListener("pagehide", () => { if (later !== undefined) write(); });
+    addEventListener("pagehide", () => {
+        if (later !== undefined) write();
+    });
     return follow;
 }

@@ -1,4 +1,5 @@
-// A second container to the left of the first. It keeps its parameters and moves at the same pace, also by hand.
+// A second container to the left of the first. It keeps its parameters and moves at the same pace,
+// also by hand.
 import type {Laboratory} from "./laboratory";
 import type {FromWorker, ToWorker} from "./messages";
 import {button, dark, element, signed} from "./page";
@@ -36,21 +37,33 @@ export class ComparedContainer {
     private period = 1;
     private look: Look = {coloring: "sector", strobe: false, isLapse: false, isByHand: false};
 
-    /** `given` are its parameters, `follows` whether it begins again together with the first container. */
-    constructor(lab: Laboratory, readonly given: Record<string, string>, private readonly name: string,
-                readonly follows: boolean, ended: () => void) {
+    /** `given` are its parameters, `follows` whether it begins again together with the first
+     *  container. */
+    constructor(
+        lab: Laboratory,
+        readonly given: Record<string, string>,
+        private readonly name: string,
+        readonly follows: boolean,
+        ended: () => void,
+    ) {
         this.canvas.setAttribute("role", "img");
         this.canvas.setAttribute("aria-label", name);
         this.caption.textContent = name;
         const end = button("×", ended, "close-compared");
         end.setAttribute("aria-label", texts.closeCompared);
-        this.figure = element("figure", {id: "compared"}, this.canvas,
-                              element("div", {className: "row-of-caption"}, this.caption, end));
+        this.figure = element(
+            "figure",
+            {id: "compared"},
+            this.canvas,
+            element("div", {className: "row-of-caption"}, this.caption, end),
+        );
         this.worker = lab.newWorker();
         this.worker.onmessage = ({data}: MessageEvent<FromWorker>): void => this.hear(data);
     }
 
-    end(): void { this.worker.terminate(); }
+    end(): void {
+        this.worker.terminate();
+    }
 
     begin(): void {
         this.isNew = true;
@@ -70,15 +83,29 @@ export class ComparedContainer {
 
     redraw(look = this.look): void {
         if (look.coloring !== this.look.coloring) {
-            this.send({kind: "measure", maps: false, contacts: look.coloring === "contacts"}, false);
+            this.send(
+                {kind: "measure", maps: false, contacts: look.coloring === "contacts"},
+                false,
+            );
             if (look.coloring === "sector" && this.last) this.paint.apply(this.last);
         }
         this.look = {...look};
         const image = this.glide.image;
-        if (image) draw(this.canvas, image.frame, {view: "lab", coloring: this.look.coloring, sectors: this.paint.sectors,
-                                                   trails: [], event: undefined, next: undefined, omega: 0, dark: dark(),
-                                                   room: this.room, turns: image.turns, held: undefined,
-                                                   contacts: this.contacts.recent});
+        if (image)
+            draw(this.canvas, image.frame, {
+                view: "lab",
+                coloring: this.look.coloring,
+                sectors: this.paint.sectors,
+                trails: [],
+                event: undefined,
+                next: undefined,
+                omega: 0,
+                dark: dark(),
+                room: this.room,
+                turns: image.turns,
+                held: undefined,
+                contacts: this.contacts.recent,
+            });
     }
 
     private send(message: ToWorker, isAnswered = true): void {
@@ -93,10 +120,16 @@ export class ComparedContainer {
             this.period = Number(data.configuration["period"]);
         } else if (data.kind === "rejected") this.caption.textContent = engineMessage(data.message);
         if (data.kind !== "frame") return;
-        const {frame, rotation, turns: [turns]} = data, {look} = this;
+        const {
+                frame,
+                rotation,
+                turns: [turns],
+            } = data,
+            {look} = this;
         this.waiting = false;
         this.contacts.add(data, this.period);
-        if (this.isNew || this.last?.length !== frame.length || frame[1]! > this.last[1]! + 1) { // it skipped periods
+        if (this.isNew || this.last?.length !== frame.length || frame[1]! > this.last[1]! + 1) {
+            // it skipped periods
             this.paint.apply(frame);
             this.glide.clear();
         }
@@ -110,11 +143,16 @@ export class ComparedContainer {
             this.glide.add(frame, turns, look.isLapse);
         }
         this.redraw();
-        if (look.isByHand) this.caption.textContent = `${this.name}: ${fill(texts.turns, {turns: signed(turns, 2)})}`;
+        if (look.isByHand)
+            this.caption.textContent = `${this.name}: ${fill(texts.turns, {turns: signed(turns, 2)})}`;
         else if (rotation) {
             this.hasAverages = rotation.mean_by_time.blocks > 0;
             this.finding = findingOf(rotation, turns, frame[1]! + frame[2]! / this.period);
-            this.caption.textContent = captionOf(this.name, this.finding, look.coloring === "contacts" ? data.cause : undefined);
+            this.caption.textContent = captionOf(
+                this.name,
+                this.finding,
+                look.coloring === "contacts" ? data.cause : undefined,
+            );
         }
     }
 }

@@ -1,5 +1,5 @@
-// The collisions of the last part of a period, for the drawing: those in which friction stopped the slip, and those in
-// which the surfaces slid on each other.
+// The collisions of the last part of a period, for the drawing: those in which friction stopped the
+// slip, and those in which the surfaces slid on each other.
 import type {Frame} from "./messages";
 
 /** Time, the two discs (equal for the wall), 1 if friction stopped the slip. */
@@ -16,7 +16,9 @@ export class Contacts {
     private times: number[] = [];
     private all: Contact[] = [];
 
-    get recent(): readonly Contact[] { return this.all; }
+    get recent(): readonly Contact[] {
+        return this.all;
+    }
 
     /** Adds those of a frame and forgets the earlier ones. */
     add({frame, contacts}: Frame, period: number): void {
@@ -26,11 +28,19 @@ export class Contacts {
         }
         for (let k = 0; k < contacts.length; k += width) {
             this.times.push(contacts[k]!);
-            this.all.push({i: contacts[k + 1]!, j: contacts[k + 2]!, sticks: contacts[k + 3] === 1});
+            this.all.push({
+                i: contacts[k + 1]!,
+                j: contacts[k + 2]!,
+                sticks: contacts[k + 3] === 1,
+            });
         }
         const [now, discs] = [frame[0]!, frame[10]!];
-        const isShown = this.times.map((time, k) => time <= now && time >= now - shownPeriods * period &&
-            Math.max(this.all[k]!.i, this.all[k]!.j) < discs);
+        const isShown = this.times.map(
+            (time, k) =>
+                time <= now &&
+                time >= now - shownPeriods * period &&
+                Math.max(this.all[k]!.i, this.all[k]!.j) < discs,
+        );
         this.times = this.times.filter((_, k) => isShown[k]);
         this.all = this.all.filter((_, k) => isShown[k]);
     }

@@ -1,5 +1,6 @@
-// N_c of one setting with few runs: the search of `swirl crossing` (src/swirl/statistics/crossing_search.hpp), which the
-// engine steers, with shorter runs, so that it takes seconds.
+// N_c of one setting with few runs: the search of `swirl crossing`
+// (src/swirl/statistics/crossing_search.hpp), which the engine steers, with shorter runs, so that
+// it takes seconds.
 import type {NextRuns, Rate, SearchRules} from "./engine";
 import type {Crossings, EvaluatedRun, FinishedRun, SearchedRun} from "./runs";
 
@@ -8,7 +9,14 @@ export interface SearchSettings extends SearchRules {
     periods: number;
     seed: number;
 }
-export const usualSearch: SearchSettings = {from: 5, to: 48, periods: 66, tolerance: 0.25, rounds: 4, seed: 1};
+export const usualSearch: SearchSettings = {
+    from: 5,
+    to: 48,
+    periods: 66,
+    tolerance: 0.25,
+    rounds: 4,
+    seed: 1,
+};
 
 /** What the search needs: a run, the next runs after those made, and the evaluation of all runs. */
 export interface SearchTools {
@@ -27,22 +35,33 @@ export interface SearchResult {
 /** The rate that controls the search. */
 export const controlling: Rate = "mean_by_time";
 
-export async function searchCrossing(settings: SearchSettings, tools: SearchTools,
-                                     progress: (runs: number) => void = () => {}): Promise<SearchResult> {
-    const made: SearchedRun[] = [], finished: EvaluatedRun[] = [];
+export async function searchCrossing(
+    settings: SearchSettings,
+    tools: SearchTools,
+    progress: (runs: number) => void = () => {},
+): Promise<SearchResult> {
+    const made: SearchedRun[] = [],
+        finished: EvaluatedRun[] = [];
     let count = 0;
     for (;;) {
         const {runs, within_tolerance: withinTolerance} = await tools.search(settings, made);
         if (runs.length === 0)
-            return {crossings: await tools.crossings(finished), runs: count, collapsed: count - finished.length,
-                    withinTolerance};
-        const step = await Promise.all(runs.map(async ([discs, replicate, doublings]) => {
-            const periods = settings.periods * 2 ** doublings;
-            const {rotation} = await tools.run(discs, settings.seed + replicate, periods);
-            progress(++count);
-            return {discs, periods, rotation};
-        }));
+            return {
+                crossings: await tools.crossings(finished),
+                runs: count,
+                collapsed: count - finished.length,
+                withinTolerance,
+            };
+        const step = await Promise.all(
+            runs.map(async ([discs, replicate, doublings]) => {
+                const periods = settings.periods * 2 ** doublings;
+                const {rotation} = await tools.run(discs, settings.seed + replicate, periods);
+                progress(++count);
+                return {discs, periods, rotation};
+            }),
+        );
         made.push(...step);
-        for (const {discs, periods, rotation} of step) if (rotation) finished.push({discs, periods, rotation});
+        for (const {discs, periods, rotation} of step)
+            if (rotation) finished.push({discs, periods, rotation});
     }
 }

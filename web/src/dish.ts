@@ -52,13 +52,18 @@ export class Dish {
     private dragged: number | undefined; // the disc under the pointer
     private held: number | undefined; // the disc selected by keys
 
-    constructor(private readonly lab: Laboratory, private readonly say: (text: string) => void) {
+    constructor(
+        private readonly lab: Laboratory,
+        private readonly say: (text: string) => void,
+    ) {
         lab.on("begin", () => this.forget());
         lab.on("changed", () => {
             this.history = [];
             this.maps = undefined;
         });
-        lab.on("maps", (maps) => { this.maps = maps; });
+        lab.on("maps", (maps) => {
+            this.maps = maps;
+        });
         lab.on("frame", (frame) => this.receive(frame));
         addEventListener("resize", () => this.redraw());
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.redraw());
@@ -67,19 +72,26 @@ export class Dish {
     /** Shows a container with these parameters next to the first, or none. */
     compare(given?: Record<string, string>, name = "", follows = false): void {
         this.compared?.end();
-        this.compared = given && new ComparedContainer(this.lab, given, name, follows, () => this.compare());
+        this.compared =
+            given && new ComparedContainer(this.lab, given, name, follows, () => this.compare());
         document.body.classList.toggle("compares", given !== undefined);
         this.layOut();
         this.comparedChanged();
     }
 
     /** Time is paused while a disc is dragged or selected. */
-    get holdsTime(): boolean { return this.dragged !== undefined || this.held !== undefined; }
+    get holdsTime(): boolean {
+        return this.dragged !== undefined || this.held !== undefined;
+    }
     /** The canvas that is saved and recorded. */
-    get canvas(): HTMLCanvasElement | undefined { return this.canvases.lab ?? this.canvases.m; }
+    get canvas(): HTMLCanvasElement | undefined {
+        return this.canvases.lab ?? this.canvases.m;
+    }
 
     /** One image per period. */
-    get strobe(): boolean { return this.strobes; }
+    get strobe(): boolean {
+        return this.strobes;
+    }
     set strobe(on: boolean) {
         this.strobes = on;
         this.history = [];
@@ -87,19 +99,28 @@ export class Dish {
     }
 
     layOut(): void {
-        const views: View[] = this.view === "both" ? ["lab", "m"] : [isMap(this.view) ? "m" : this.view];
-        byId("views").replaceChildren(...views.map((each) => {
-            const canvas = element("canvas");
-            canvas.setAttribute("role", "img");
-            this.canvases[each] = canvas;
-            if (each === "lab") {
-                this.addPointerControl(canvas);
-                this.addTouchControl(canvas);
-                this.addKeyControl(canvas);
-            }
-            return element("figure", {}, canvas, element("figcaption", {textContent: texts.views[each]}));
-        }));
-        for (const each of ["lab", "m"] as const) if (!views.includes(each)) delete this.canvases[each];
+        const views: View[] =
+            this.view === "both" ? ["lab", "m"] : [isMap(this.view) ? "m" : this.view];
+        byId("views").replaceChildren(
+            ...views.map((each) => {
+                const canvas = element("canvas");
+                canvas.setAttribute("role", "img");
+                this.canvases[each] = canvas;
+                if (each === "lab") {
+                    this.addPointerControl(canvas);
+                    this.addTouchControl(canvas);
+                    this.addKeyControl(canvas);
+                }
+                return element(
+                    "figure",
+                    {},
+                    canvas,
+                    element("figcaption", {textContent: texts.views[each]}),
+                );
+            }),
+        );
+        for (const each of ["lab", "m"] as const)
+            if (!views.includes(each)) delete this.canvases[each];
         if (this.compared) {
             byId("views").prepend(this.compared.figure);
             this.addPointerControl(this.compared.canvas);
@@ -137,7 +158,13 @@ export class Dish {
         const before = this.shown?.frame;
         const stops = (this.strobe || this.isLapse) && !this.lab.isByHand;
         this.contacts.add(frame, this.lab.value("period"));
-        if (stops && before && !isWholePeriod(frame.frame, this.lab.value("period")) && !frame.event) return;
+        if (
+            stops &&
+            before &&
+            !isWholePeriod(frame.frame, this.lab.value("period")) &&
+            !frame.event
+        )
+            return;
         if (before?.length === frame.frame.length) {
             this.history.push(before);
             if (this.history.length > trailLength) this.history.shift();
@@ -158,8 +185,10 @@ export class Dish {
     }
 
     private requestMaps(): void {
-        const maps = isMap(this.view) || this.needsMaps(), contacts = this.coloring === "contacts";
-        const measures = {maps: maps || this.coloring === "pinned", contacts}, said = JSON.stringify(measures);
+        const maps = isMap(this.view) || this.needsMaps(),
+            contacts = this.coloring === "contacts";
+        const measures = {maps: maps || this.coloring === "pinned", contacts},
+            said = JSON.stringify(measures);
         if (said !== this.measures) this.lab.send({kind: "measure", ...measures});
         this.measures = said;
         if (this.lab.isByHand || !maps || performance.now() - this.lastMaps < mapInterval) return;
@@ -168,35 +197,69 @@ export class Dish {
     }
 
     private get note(): string {
-        return this.isLapse ? texts.lapseNote : this.strobe && !this.lab.isByHand ? texts.strobeNote : "";
+        return this.isLapse
+            ? texts.lapseNote
+            : this.strobe && !this.lab.isByHand
+              ? texts.strobeNote
+              : "";
     }
 
     redraw(): void {
-        const {lab, shown} = this, image = this.glide.image;
+        const {lab, shown} = this,
+            image = this.glide.image;
         if (!shown || !image) return;
         const period = lab.value("period");
-        const past = this.trails ? recent(this.history, shown.frame, (this.strobe ? strobeTrail : trailPeriods) * period) : [];
+        const past = this.trails
+            ? recent(this.history, shown.frame, (this.strobe ? strobeTrail : trailPeriods) * period)
+            : [];
         for (const [each, canvas] of Object.entries(this.canvases) as [View, HTMLCanvasElement][]) {
             draw(canvas, image.frame, {
-                view: each, coloring: this.coloring, sectors: this.paint.sectors, trails: past,
-                event: shown.event, next: shown.next, dark: dark(),
-                omega: this.forces && !lab.isByHand ? 2 * Math.PI / period : 0,
-                room: lab.maxDistance(), turns: image.turns, held: this.held,
+                view: each,
+                coloring: this.coloring,
+                sectors: this.paint.sectors,
+                trails: past,
+                event: shown.event,
+                next: shown.next,
+                dark: dark(),
+                omega: this.forces && !lab.isByHand ? (2 * Math.PI) / period : 0,
+                room: lab.maxDistance(),
+                turns: image.turns,
+                held: this.held,
                 contacts: this.contacts.recent,
-                map: isMap(this.view) ? layerOf(this.view, this.maps) : undefined, note: this.note});
-            const label = fill(texts.container, {particles: lab.counted(shown.frame[10] ?? 0), view: texts.views[each]});
-            if (canvas.getAttribute("aria-label") !== label) canvas.setAttribute("aria-label", label);
+                map: isMap(this.view) ? layerOf(this.view, this.maps) : undefined,
+                note: this.note,
+            });
+            const label = fill(texts.container, {
+                particles: lab.counted(shown.frame[10] ?? 0),
+                view: texts.views[each],
+            });
+            if (canvas.getAttribute("aria-label") !== label)
+                canvas.setAttribute("aria-label", label);
         }
-        this.compared?.redraw({coloring: this.coloring, strobe: this.strobe, isLapse: this.isLapse, isByHand: lab.isByHand});
+        this.compared?.redraw({
+            coloring: this.coloring,
+            strobe: this.strobe,
+            isLapse: this.isLapse,
+            isByHand: lab.isByHand,
+        });
         this.showCaption();
     }
 
     /** Next to another container the caption of the first has its result. */
     private showCaption(): void {
-        const {lab, shown} = this, caption = this.canvases.lab?.parentElement?.querySelector("figcaption"), name = lab.counted(shown!.frame[10]!);
+        const {lab, shown} = this,
+            caption = this.canvases.lab?.parentElement?.querySelector("figcaption"),
+            name = lab.counted(shown!.frame[10]!);
         if (!caption) return;
-        const text = !this.compared ? texts.views.lab : lab.isByHand ? `${name}: ${fill(texts.turns, {turns: signed(shown!.turns[0], 2)})}`
-            : captionOf(name, findingOf(lab.averages, shown!.turns[0], shown!.frame[1]!), this.coloring === "contacts" ? lab.cause : undefined);
+        const text = !this.compared
+            ? texts.views.lab
+            : lab.isByHand
+              ? `${name}: ${fill(texts.turns, {turns: signed(shown!.turns[0], 2)})}`
+              : captionOf(
+                    name,
+                    findingOf(lab.averages, shown!.turns[0], shown!.frame[1]!),
+                    this.coloring === "contacts" ? lab.cause : undefined,
+                );
         if (caption.textContent !== text) caption.textContent = text;
     }
 
@@ -222,7 +285,8 @@ export class Dish {
         canvas.addEventListener("pointerdown", (event) => {
             if (!lab.last) return;
             if (lab.isByHand) this.pointer = point(event);
-            else if (canvas === this.canvases.lab) this.dragged = discAt(lab.last.frame, ...point(event));
+            else if (canvas === this.canvases.lab)
+                this.dragged = discAt(lab.last.frame, ...point(event));
             if (this.dragged !== undefined) canvas.setPointerCapture(event.pointerId);
         });
         canvas.addEventListener("pointermove", (event) => {
@@ -231,33 +295,54 @@ export class Dish {
             if (this.dragged !== undefined) this.moveDisc(this.dragged, ...point(event));
         });
         for (const end of ["pointerup", "pointercancel"] as const)
-            canvas.addEventListener(end, () => { this.dragged = undefined; });
+            canvas.addEventListener(end, () => {
+                this.dragged = undefined;
+            });
     }
 
-    /** A vertical touch move scrolls the page and cancels the pointer. If the touch starts on a disc,
-     *  this prevents the scrolling. */
+    /** A vertical touch move scrolls the page and cancels the pointer. If the touch starts on a
+     *  disc, this prevents the scrolling. */
     private addTouchControl(canvas: HTMLCanvasElement): void {
-        canvas.addEventListener("touchstart", (event) => {
-            const finger = event.touches[0], {lab} = this;
-            if (!lab.last || lab.isByHand || !finger || event.touches.length > 1) return;
-            const at = pointedAt(canvas, lab.last.frame, lab.maxDistance(), finger.clientX, finger.clientY);
-            if (discAt(lab.last.frame, ...at) !== undefined) event.preventDefault();
-        }, {passive: false});
+        canvas.addEventListener(
+            "touchstart",
+            (event) => {
+                const finger = event.touches[0],
+                    {lab} = this;
+                if (!lab.last || lab.isByHand || !finger || event.touches.length > 1) return;
+                const at = pointedAt(
+                    canvas,
+                    lab.last.frame,
+                    lab.maxDistance(),
+                    finger.clientX,
+                    finger.clientY,
+                );
+                if (discAt(lab.last.frame, ...at) !== undefined) event.preventDefault();
+            },
+            {passive: false},
+        );
     }
 
-    /** The keys do what the pointer does: [ and ] select a disc, arrows move it, Escape deselects it. In
-     *  the mode "by hand" the arrows move the container. */
+    /** The keys do what the pointer does: [ and ] select a disc, arrows move it, Escape deselects
+     *  it. In the mode "by hand" the arrows move the container. */
     private addKeyControl(canvas: HTMLCanvasElement): void {
         const ways: Record<string, [number, number]> = {
-            ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1],
+            ArrowLeft: [-1, 0],
+            ArrowRight: [1, 0],
+            ArrowUp: [0, 1],
+            ArrowDown: [0, -1],
         };
         canvas.tabIndex = 0;
         canvas.setAttribute("role", "application");
-        canvas.setAttribute("aria-keyshortcuts", "[ ] ArrowLeft ArrowRight ArrowUp ArrowDown Escape");
+        canvas.setAttribute(
+            "aria-keyshortcuts",
+            "[ ] ArrowLeft ArrowRight ArrowUp ArrowDown Escape",
+        );
         canvas.addEventListener("keydown", (event) => {
-            const {lab} = this, way = ways[event.key];
+            const {lab} = this,
+                way = ways[event.key];
             if (!lab.last) return;
-            const frame = lab.last.frame, discs = frame[10] ?? 0;
+            const frame = lab.last.frame,
+                discs = frame[10] ?? 0;
             if (way) {
                 event.preventDefault();
                 if (lab.isByHand) {
@@ -270,7 +355,8 @@ export class Dish {
                     this.moveDisc(this.held, x + step * way[0], y + step * way[1]);
                 }
             } else if ((event.key === "[" || event.key === "]") && !lab.isByHand && discs > 0) {
-                const next = this.held === undefined ? 0 : this.held + (event.key === "]" ? 1 : discs - 1);
+                const next =
+                    this.held === undefined ? 0 : this.held + (event.key === "]" ? 1 : discs - 1);
                 this.select(next % discs);
             } else if (event.key === "Escape") {
                 this.select(undefined);

@@ -7,7 +7,9 @@ export class UsageError extends Error {}
 
 /** The parameter that an error message names first: "--mu is …", or a number of discs. */
 export function parameterOf(message: string): string | undefined {
-    return /^\d+ /.test(message) ? "discs" : /^.*?--([a-z-]+)/.exec(message)?.[1]?.replaceAll("-", "_");
+    return /^\d+ /.test(message)
+        ? "discs"
+        : /^.*?--([a-z-]+)/.exec(message)?.[1]?.replaceAll("-", "_");
 }
 
 export interface Parameter {
@@ -34,7 +36,7 @@ export interface Estimate {
 
 /** The rotation rates: the mean over the discs and the rigid-body rate, by time and by event. */
 export const rates = ["mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event"] as const;
-export type Rate = typeof rates[number];
+export type Rate = (typeof rates)[number];
 
 export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {
     return Object.fromEntries(rates.map((rate) => [rate, of(rate)])) as Record<Rate, T>;
@@ -42,8 +44,8 @@ export function perRate<T>(of: (rate: Rate) => T): Record<Rate, T> {
 
 export interface Rotation extends Record<Rate, Estimate> {
     warmup: number; // unit: periods
-    /** Means over blocks of periods, of the mean over the discs and of the rigid body; the warm-up's come
-     *  first. */
+    /** Means over blocks of periods, of the mean over the discs and of the rigid body; the
+     *  warm-up's come first. */
     blocks: (number | null)[];
     rigid_blocks: (number | null)[];
     warmup_blocks: number;
@@ -66,22 +68,56 @@ export interface Cause {
 
 /** The functions of laboratory.cpp; their arguments are in its comments. */
 type Exports = {memory: WebAssembly.Memory; state_hash(): bigint} & Record<
-    "_initialize" | "buffer_for" | "text" | "parameters" | "begin" | "configuration" | "run_events" | "advance_to" |
-    "problem" | "frame" | "frame_size" | "event" | "next_event" | "time" | "events" | "rotation" | "turns" |
-    "cause" | "contacts" | "keeps_discs" | "change" | "steer" | "reverse" | "drag" | "result" | "command" |
-    "report" | "show_maps" | "column" | "spin_map" | "values" | "runs" | "crossing" | "search_runs" | "search",
-    (...numbers: number[]) => number>;
+    | "_initialize"
+    | "buffer_for"
+    | "text"
+    | "parameters"
+    | "begin"
+    | "configuration"
+    | "run_events"
+    | "advance_to"
+    | "problem"
+    | "frame"
+    | "frame_size"
+    | "event"
+    | "next_event"
+    | "time"
+    | "events"
+    | "rotation"
+    | "turns"
+    | "cause"
+    | "contacts"
+    | "keeps_discs"
+    | "change"
+    | "steer"
+    | "reverse"
+    | "drag"
+    | "result"
+    | "command"
+    | "report"
+    | "show_maps"
+    | "column"
+    | "spin_map"
+    | "values"
+    | "runs"
+    | "crossing"
+    | "search_runs"
+    | "search",
+    (...numbers: number[]) => number
+>;
 
 /** The evaluation of runs with different N by one rotation rate, as `swirl crossing` does it. */
 export interface Crossing {
     verdict: "crosses" | "always_rotates" | "always_counterrotates" | "undecided";
-    /** N_c and its standard error. If not every N in the bracket was run, only the bracket is known. */
+    /** N_c and its standard error. If not every N in the bracket was run, only the bracket is
+     *  known. */
     discs: number | null;
     error: number | null;
     /** 95 % interval of N_c; the bracket if N_c is not known. */
     lower: number | null;
     upper: number | null;
-    /** The bracket of N_c: the last N with certain rotation, and the next with certain counterrotation. */
+    /** The bracket of N_c: the last N with certain rotation, and the next with certain
+     *  counterrotation. */
     before: number | null;
     after: number | null;
     /** N whose direction of rotation is not certain. */
@@ -90,7 +126,8 @@ export interface Crossing {
     points: [number, number | null, number | null][];
 }
 
-/** One run for the evaluation: N, ϖ/Ω, error, periods after the warm-up, effective number of samples. */
+/** One run for the evaluation: N, ϖ/Ω, error, periods after the warm-up, effective number of
+ *  samples. */
 export type RunNumbers = [number, number, number, number, number];
 
 export interface SearchRules {
@@ -101,17 +138,18 @@ export interface SearchRules {
     /** Further runs at one number of discs, at most. */
     rounds: number;
 }
-/** A run of a search for N_c: N, periods after the warm-up, and for each of `rates` mean, error and effective number
- *  of samples; NaN if the run collapsed. */
+/** A run of a search for N_c: N, periods after the warm-up, and for each of `rates` mean, error and
+ *  effective number of samples; NaN if the run collapsed. */
 export type SearchedNumbers = number[];
-/** The next runs of a search: N, replicate, and how often their length is doubled; none at its end. */
+/** The next runs of a search: N, replicate, and how often their length is doubled; none at its end.
+ *  */
 export interface NextRuns {
     runs: [number, number, number][];
     within_tolerance: boolean;
 }
 
-/** The layout of a frame: numbers in its head, per disc, and per orientation (a quaternion; only spheres
- *  have one). */
+/** The layout of a frame: numbers in its head, per disc, and per orientation (a quaternion; only
+ *  spheres have one). */
 export const frameHead = 11;
 export const frameDisc = 8;
 export const frameOrientation = 4;
@@ -154,15 +192,27 @@ export class Engine {
         const at = this.out.buffer_for(bytes.length);
         new Uint8Array(this.out.memory.buffer, at, bytes.length).set(bytes);
     }
-    /** Each value is one line for the engine and may come from the page's address. A control character in
-     *  it could add further lines or hide text, so it is an error. */
+    /** Each value is one line for the engine and may come from the page's address. A control
+     *  character in it could add further lines or hide text, so it is an error. */
     private writeLines(given: Record<string, string>): void {
         for (const [name, value] of Object.entries(given)) {
             const control = /[\p{Cc}\p{Cf}\p{Zl}\p{Zp}]/u.exec(value);
-            if (control) throw new UsageError(fill(workerTexts.control, {option: `--${name.replaceAll("_", "-")}`,
-                code: (control[0].codePointAt(0) ?? 0).toString(16).toUpperCase().padStart(4, "0")}));
+            if (control)
+                throw new UsageError(
+                    fill(workerTexts.control, {
+                        option: `--${name.replaceAll("_", "-")}`,
+                        code: (control[0].codePointAt(0) ?? 0)
+                            .toString(16)
+                            .toUpperCase()
+                            .padStart(4, "0"),
+                    }),
+                );
         }
-        this.write(Object.entries(given).map(([name, value]) => `${name}=${value}\n`).join(""));
+        this.write(
+            Object.entries(given)
+                .map(([name, value]) => `${name}=${value}\n`)
+                .join(""),
+        );
     }
     /** Throws UsageError; the engine cannot be used after that. */
     begin(given: Record<string, string>): void {
@@ -174,8 +224,8 @@ export class Engine {
         this.writeLines(given);
         return (["no", "now", "later"] as const)[this.out.keeps_discs()]!;
     }
-    /** The discs continue from `time`. Returns the number of discs for which there is no room at this moment;
-     *  undefined if the change needs a new simulation. */
+    /** The discs continue from `time`. Returns the number of discs for which there is no room at
+     *  this moment; undefined if the change needs a new simulation. */
     change(time: number, given: Record<string, string>): number | undefined {
         this.writeLines(given);
         const answer = this.out.change(time);
@@ -185,7 +235,8 @@ export class Engine {
     steer(time: number, x: number, y: number, duration: number): void {
         this.out.steer(time, x, y, duration);
     }
-    /** Reverses time from `time` on; false if energy is not conserved. The engine's time restarts at 0. */
+    /** Reverses time from `time` on; false if energy is not conserved. The engine's time restarts
+     *  at 0. */
     reverse(time: number): boolean {
         return this.out.reverse(time) === 1;
     }
@@ -228,17 +279,20 @@ export class Engine {
     }
     /** The next runs of a search for N_c, after those in `made`. */
     search({from, to, tolerance, rounds}: SearchRules, made: readonly SearchedNumbers[]): NextRuns {
-        const numbers = made.flat(), at = this.out.search_runs(made.length);
+        const numbers = made.flat(),
+            at = this.out.search_runs(made.length);
         new Float64Array(this.out.memory.buffer, at, numbers.length).set(numbers);
         return JSON.parse(this.answer(this.out.search(from, to, tolerance, rounds))) as NextRuns;
     }
     /** All parameters, including those that were not given. */
     configuration(): Record<string, string> {
         const lines = this.answer(this.out.configuration()).split("\n").filter(Boolean);
-        return Object.fromEntries(lines.map((line) => {
-            const equals = line.indexOf("=");
-            return [line.slice(0, equals), line.slice(equals + 1)];
-        }));
+        return Object.fromEntries(
+            lines.map((line) => {
+                const equals = line.indexOf("=");
+                return [line.slice(0, equals), line.slice(equals + 1)];
+            }),
+        );
     }
     runEvents(count: number): void {
         this.out.run_events(count);
@@ -246,7 +300,8 @@ export class Engine {
     advanceTo(time: number, maximum: number): boolean {
         return this.out.advance_to(time, maximum) === 1;
     }
-    /** The error message with which a run of the command line would end here; empty if there is none. */
+    /** The error message with which a run of the command line would end here; empty if there is
+     *  none. */
     problem(atTheEnd: boolean): string {
         return this.answer(this.out.problem(Number(atTheEnd)));
     }
@@ -255,8 +310,8 @@ export class Engine {
         const at = this.out.frame(time);
         return this.numbers(at, this.out.frame_size());
     }
-    /** A copy of `size` numbers at `at`. The buffer is read after the call that wrote the numbers: memory
-     *  that grows gets a new buffer. */
+    /** A copy of `size` numbers at `at`. The buffer is read after the call that wrote the numbers:
+     *  memory that grows gets a new buffer. */
     private numbers(at: number, size: number): Float64Array {
         return new Float64Array(this.out.memory.buffer, at, size).slice();
     }
@@ -266,15 +321,33 @@ export class Engine {
     nextEvent(): Float64Array {
         return this.numbers(this.out.next_event(), 9);
     }
-    /** Turns of the cluster since the averages, or the warm-up, began: the mean over the discs, and the rigid
-     *  body. */
+    /** Turns of the cluster since the averages, or the warm-up, began: the mean over the discs, and
+     *  the rigid body. */
     turns(): [number, number] {
         return [...this.numbers(this.out.turns(), 2)] as [number, number];
     }
     cause(): Cause {
-        const [slip, , perimeter, , spinCorrelation, spinCorrelationError, discSticking, , wallSticking] =
-            [...this.numbers(this.out.cause(), 10)].map((each) => (Number.isFinite(each) ? each : null));
-        return {slip, perimeter, spinCorrelation, spinCorrelationError, discSticking, wallSticking} as Cause;
+        const [
+            slip,
+            ,
+            perimeter,
+            ,
+            spinCorrelation,
+            spinCorrelationError,
+            discSticking,
+            ,
+            wallSticking,
+        ] = [...this.numbers(this.out.cause(), 10)].map((each) =>
+            Number.isFinite(each) ? each : null,
+        );
+        return {
+            slip,
+            perimeter,
+            spinCorrelation,
+            spinCorrelationError,
+            discSticking,
+            wallSticking,
+        } as Cause;
     }
     /** The collisions since the last call (contacts.ts). */
     contacts(): Float64Array {

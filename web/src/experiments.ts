@@ -6,28 +6,57 @@ import type {Player} from "./player";
 import type {Transport} from "./transport";
 import {texts} from "./texts";
 
-export function experiments(lab: Laboratory, dish: Dish, player: Player, transport: Transport): HTMLElement[] {
-    const hand = button(texts.hand, () => {
-        if (lab.isByHand || !lab.last) return lab.setByHand(false);
-        transport.setView("lab");
-        dish.pointer = [lab.last.frame[3]!, lab.last.frame[4]!];
-        lab.setByHand(true);
-        player.setPlaying(true);
-    }, "by-hand");
+export function experiments(
+    lab: Laboratory,
+    dish: Dish,
+    player: Player,
+    transport: Transport,
+): HTMLElement[] {
+    const hand = button(
+        texts.hand,
+        () => {
+            if (lab.isByHand || !lab.last) return lab.setByHand(false);
+            transport.setView("lab");
+            dish.pointer = [lab.last.frame[3]!, lab.last.frame[4]!];
+            lab.setByHand(true);
+            player.setPlaying(true);
+        },
+        "by-hand",
+    );
     const backwards = button(texts.backwards, () => lab.send({kind: "reverse"}), "backwards");
     backwards.title = texts.backwardsHelp;
-    const compare = button(texts.compare, () => {
-        const given = {...lab.given}, name = [lab.counted(lab.value("discs")), ...Object.entries(given)
-            .filter(([key]) => key !== "discs").map(([key, value]) => localized(`${key} ${value}`))].join(", ");
-        dish.compare(given, name);
-    }, "compare");
+    const compare = button(
+        texts.compare,
+        () => {
+            const given = {...lab.given},
+                name = [
+                    lab.counted(lab.value("discs")),
+                    ...Object.entries(given)
+                        .filter(([key]) => key !== "discs")
+                        .map(([key, value]) => localized(`${key} ${value}`)),
+                ].join(", ");
+            dish.compare(given, name);
+        },
+        "compare",
+    );
     compare.title = texts.compareHelp;
     const forces = element("input", {type: "checkbox", id: "forces"});
-    forces.addEventListener("change", () => { dish.forces = forces.checked; dish.redraw(); });
+    forces.addEventListener("change", () => {
+        dish.forces = forces.checked;
+        dish.redraw();
+    });
     const keep = element("input", {type: "checkbox", id: "keep", checked: lab.keepsDiscs});
-    keep.addEventListener("change", () => { lab.keepsDiscs = keep.checked; });
-    const lapses = element("input", {type: "checkbox", id: "lapses", checked: player.lapsesByItself});
-    lapses.addEventListener("change", () => { player.lapsesByItself = lapses.checked; });
+    keep.addEventListener("change", () => {
+        lab.keepsDiscs = keep.checked;
+    });
+    const lapses = element("input", {
+        type: "checkbox",
+        id: "lapses",
+        checked: player.lapsesByItself,
+    });
+    lapses.addEventListener("change", () => {
+        player.lapsesByItself = lapses.checked;
+    });
     const paint = button(texts.paint, () => transport.setColoring("sector"), "paint");
     paint.title = texts.paintHelp;
     const show = (): void => {
@@ -40,7 +69,12 @@ export function experiments(lab: Laboratory, dish: Dish, player: Player, transpo
     };
     for (const kind of ["begin", "started", "changed", "reversed"] as const) lab.on(kind, show);
     byId("transport").querySelector(".buttons")!.after(hand);
-    return [compare, backwards, paint, element("label", {title: texts.forcesHelp}, forces, ` ${texts.forces}`),
-            element("label", {title: texts.keepHelp}, keep, ` ${texts.keep}`),
-            element("label", {title: texts.lapsesHelp}, lapses, ` ${texts.lapsesByItself}`)];
+    return [
+        compare,
+        backwards,
+        paint,
+        element("label", {title: texts.forcesHelp}, forces, ` ${texts.forces}`),
+        element("label", {title: texts.keepHelp}, keep, ` ${texts.keep}`),
+        element("label", {title: texts.lapsesHelp}, lapses, ` ${texts.lapsesByItself}`),
+    ];
 }

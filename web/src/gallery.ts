@@ -10,19 +10,46 @@ import {examples} from "./texts";
 const shownPeriod = 8;
 
 /** Draws the examples one after the other. */
-export function buildGallery(lab: Laboratory, chosen: (given: Record<string, string>) => void): void {
+export function buildGallery(
+    lab: Laboratory,
+    chosen: (given: Record<string, string>) => void,
+): void {
     const pictures = examples.map(({name, help, given}) => {
         const canvas = element("canvas");
         canvas.setAttribute("aria-hidden", "true");
-        const made = element("button", {type: "button", className: "example", title: help}, canvas,
-                             element("span", {textContent: name}));
+        const made = element(
+            "button",
+            {type: "button", className: "example", title: help},
+            canvas,
+            element("span", {textContent: name}),
+        );
         made.addEventListener("click", () => chosen(given));
-        return {made, canvas, given, frame: undefined as Float64Array | undefined, paint: new SectorPaint(), room: 0};
+        return {
+            made,
+            canvas,
+            given,
+            frame: undefined as Float64Array | undefined,
+            paint: new SectorPaint(),
+            room: 0,
+        };
     });
     const redraw = (): void => {
         for (const {canvas, frame, paint, room} of pictures)
-            if (frame) draw(canvas, frame, {view: "lab", coloring: "sector", sectors: paint.sectors, trails: [],
-                event: undefined, next: undefined, omega: 0, dark: dark(), room, turns: 0, held: undefined, isSmall: true});
+            if (frame)
+                draw(canvas, frame, {
+                    view: "lab",
+                    coloring: "sector",
+                    sectors: paint.sectors,
+                    trails: [],
+                    event: undefined,
+                    next: undefined,
+                    omega: 0,
+                    dark: dark(),
+                    room,
+                    turns: 0,
+                    held: undefined,
+                    isSmall: true,
+                });
     };
     const show = (): void => {
         for (const {made, given} of pictures)
@@ -33,7 +60,8 @@ export function buildGallery(lab: Laboratory, chosen: (given: Record<string, str
     addEventListener("resize", redraw);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
 
-    const worker = lab.newWorker(), send = (message: ToWorker): void => worker.postMessage(message);
+    const worker = lab.newWorker(),
+        send = (message: ToWorker): void => worker.postMessage(message);
     let at = 0;
     const begin = (): void => send({kind: "begin", given: pictures[at]!.given, events: 0, run: at});
     worker.onmessage = ({data}: MessageEvent<FromWorker>): void => {
@@ -54,6 +82,12 @@ export function buildGallery(lab: Laboratory, chosen: (given: Record<string, str
 
 /** The same parameters, whatever their seed. */
 function sameGiven(a: Record<string, string>, b: Record<string, string>): boolean {
-    const [one, other] = [a, b].map((given) => JSON.stringify(Object.entries(given).filter(([name]) => name !== "seed").sort()));
+    const [one, other] = [a, b].map((given) =>
+        JSON.stringify(
+            Object.entries(given)
+                .filter(([name]) => name !== "seed")
+                .sort(),
+        ),
+    );
     return one === other;
 }

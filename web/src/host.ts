@@ -35,7 +35,8 @@ export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: T
         /** Sets the parameters and starts their simulation. */
         show: (given: Values, {view, coloring, isPaused = false, beside}: Shown = {}): void => {
             const {discs: _, ...others} = given;
-            if (beside) dish.compare({...others, discs: beside}, lab.counted(Number(beside), given), true);
+            if (beside)
+                dish.compare({...others, discs: beside}, lab.counted(Number(beside), given), true);
             else if (dish.compared) dish.compare();
             if (view) transport.setView(view);
             if (coloring) transport.setColoring(coloring);
@@ -43,7 +44,9 @@ export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: T
             lab.set(given, {all: true, restart: true});
         },
         /** Whether the page shows the motion within a period; see Player. */
-        setSlow: (on: boolean): void => { player.isSlow = on; },
+        setSlow: (on: boolean): void => {
+            player.isSlow = on;
+        },
         /** Lets time advance, unless the reader wants less motion. */
         play: (): void => player.setPlaying(!player.reducedMotion),
         playing: (): boolean => player.isPlaying,
@@ -54,8 +57,11 @@ export function hostOf(lab: Laboratory, dish: Dish, player: Player, transport: T
 
 /** Options of a command line for these parameters, in the order of the table. */
 export function optionsOf(given: Values, parameters: readonly {name: string}[]): string {
-    return parameters.map(({name}) => name).filter((name) => given[name])
-        .map((name) => `--${name.replaceAll("_", "-")} ${shellWord(given[name]!)}`).join(" ");
+    return parameters
+        .map(({name}) => name)
+        .filter((name) => given[name])
+        .map((name) => `--${name.replaceAll("_", "-")} ${shellWord(given[name]!)}`)
+        .join(" ");
 }
 
 /** Quotes a word for a shell if necessary. */

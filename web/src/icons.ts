@@ -13,7 +13,8 @@ export type Icon = keyof typeof paths;
 
 export function icon(name: Icon): SVGElement {
     const space = "http://www.w3.org/2000/svg";
-    const made = document.createElementNS(space, "svg"), path = document.createElementNS(space, "path");
+    const made = document.createElementNS(space, "svg"),
+        path = document.createElementNS(space, "path");
     made.setAttribute("viewBox", "0 0 24 24");
     made.setAttribute("aria-hidden", "true");
     path.setAttribute("d", paths[name]);

@@ -1,5 +1,5 @@
-// The simulation on the page: its parameters, its last frame and its averages. The engine runs in a worker;
-// the parts of the page listen to what it reports.
+// The simulation on the page: its parameters, its last frame and its averages. The engine runs in a
+// worker; the parts of the page listen to what it reports.
 import engineUrl from "../generated/swirl.wasm.gz?url";
 import EngineWorker from "./worker?worker&inline";
 import {parameterOf, type Cause, type Parameter, type Rotation} from "./engine";
@@ -15,7 +15,8 @@ export interface Reports {
     begin: [];
     /** A new simulation has begun; `configuration` is complete. */
     started: [];
-    /** The same discs continue with other parameters or (by hand) another history; averages start again. */
+    /** The same discs continue with other parameters or (by hand) another history; averages start
+     *  again. */
     changed: [byParameters: boolean];
     frame: [frame: Frame];
     averages: [rotation: Rotation];
@@ -39,8 +40,10 @@ async function unpacked(url: string): Promise<ArrayBuffer> {
 }
 
 const settling = 350; // milliseconds between the last input and a new simulation
-/** Denser packings of equal discs are known, but the engine finds hardly any. It gets a second then. */
-const doubtfulPacking = 0.8, doubtfulTime = 1000; // milliseconds
+/** Denser packings of equal discs are known, but the engine finds hardly any. It gets a second
+ *  then. */
+const doubtfulPacking = 0.8,
+    doubtfulTime = 1000; // milliseconds
 const placingTime = 30_000; // milliseconds
 const throttle = 120; // milliseconds between changes of the running simulation
 
@@ -52,7 +55,8 @@ export class Laboratory {
     /** All values in effect. */
     configuration: Record<string, string> = {};
     /** Whether the engine has a parameter of this name. */
-    readonly isParameter = (name: string): boolean => this.parameters.some((row) => row.name === name && row.settable);
+    readonly isParameter = (name: string): boolean =>
+        this.parameters.some((row) => row.name === name && row.settable);
     last: Frame | undefined;
     averages: Rotation | undefined;
     cause: Cause | undefined;
@@ -80,14 +84,18 @@ export class Laboratory {
 
     constructor() {
         this.worker.onmessage = ({data}: MessageEvent<FromWorker>): void => this.hear(data);
-        this.engine.then((bytes) => this.send({kind: "engine", bytes}), () => this.fail(texts.noWebAssembly));
+        this.engine.then(
+            (bytes) => this.send({kind: "engine", bytes}),
+            () => this.fail(texts.noWebAssembly),
+        );
     }
 
     on<Kind extends keyof Reports>(kind: Kind, listener: (...report: Reports[Kind]) => void): void {
         (this.listeners[kind] ??= [] as never[] as NonNullable<Listeners[Kind]>).push(listener);
     }
 
-    /** These values with the present seed, so that examples of a new visitor are not always the same run. */
+    /** These values with the present seed, so that examples of a new visitor are not always the
+     *  same run. */
     withSeed(given: Record<string, string>): Record<string, string> {
         const {seed} = this.given;
         return seed ? {seed, ...given} : given;
@@ -96,7 +104,9 @@ export class Laboratory {
     /** A worker with the engine, for further simulations. */
     newWorker(): Worker {
         const created = new EngineWorker({name: language});
-        void this.engine.then((bytes) => created.postMessage({kind: "engine", bytes} satisfies ToWorker));
+        void this.engine.then((bytes) =>
+            created.postMessage({kind: "engine", bytes} satisfies ToWorker),
+        );
         return created;
     }
 
@@ -104,7 +114,8 @@ export class Laboratory {
         this.worker.postMessage(message);
     }
 
-    /** Sends a message unless the answer to an earlier one is missing. Returns whether it was sent. */
+    /** Sends a message unless the answer to an earlier one is missing. Returns whether it was sent.
+     *  */
     request(message: ToWorker): boolean {
         if (this.isWaiting) return false;
         this.isWaiting = true;
@@ -112,21 +123,26 @@ export class Laboratory {
         return true;
     }
 
-    /** Sets the given values, all or some, and applies them. An empty value is the default. With `restart`
-     *  a new simulation begins at once. */
+    /** Sets the given values, all or some, and applies them. An empty value is the default. With
+     *  `restart` a new simulation begins at once. */
     set(values: Record<string, string>, options: {all?: boolean; restart?: boolean} = {}): void {
         const joined = options.all ? values : {...this.given, ...values};
         this.given = Object.fromEntries(Object.entries(joined).filter(([, value]) => value !== ""));
         this.report("given");
         if (options.restart) return this.begin();
         // After an error there is no simulation to continue.
-        const continues = this.keepsDiscs && this.last && !this.isByHand && !this.hasFailed &&
+        const continues =
+            this.keepsDiscs &&
+            this.last &&
+            !this.isByHand &&
+            !this.hasFailed &&
             this.packing() <= doubtfulPacking;
         if (!continues) this.beginSoon();
-        else this.soon ??= setTimeout(() => {
-            this.soon = undefined;
-            this.send({kind: "change", given: this.given});
-        }, throttle);
+        else
+            this.soon ??= setTimeout(() => {
+                this.soon = undefined;
+                this.send({kind: "change", given: this.given});
+            }, throttle);
     }
 
     /** Starts a new simulation after the last input. */
@@ -149,20 +165,34 @@ export class Laboratory {
         if (this.placing !== undefined) this.renewWorker(message);
         else this.send(message);
         clearTimeout(this.placing);
-        this.placing = setTimeout(() => this.endPlacing(), this.packing() > doubtfulPacking ? doubtfulTime : placingTime);
+        this.placing = setTimeout(
+            () => this.endPlacing(),
+            this.packing() > doubtfulPacking ? doubtfulTime : placingTime,
+        );
         this.report("begin");
     }
 
     /** The share of the container that discs of one size cover. */
     private packing(): number {
         const of = (name: string): number => Number(this.given[name] || this.effectiveValue(name));
-        return this.given["mixture"] || this.given["sizes"] ? 0 : of("discs") * (of("radius") / of("container_radius")) ** 2;
+        return this.given["mixture"] || this.given["sizes"]
+            ? 0
+            : of("discs") * (of("radius") / of("container_radius")) ** 2;
     }
 
     private endPlacing(): void {
         this.renewWorker();
         this.placing = undefined;
-        this.fail(fill(texts.tooDense, {particles: this.counted(Number(this.given["discs"] || this.effectiveValue("discs")), this.given), percent: Math.round(100 * this.packing())}), "discs");
+        this.fail(
+            fill(texts.tooDense, {
+                particles: this.counted(
+                    Number(this.given["discs"] || this.effectiveValue("discs")),
+                    this.given,
+                ),
+                percent: Math.round(100 * this.packing()),
+            }),
+            "discs",
+        );
     }
 
     private renewWorker(message?: ToWorker): void {
@@ -197,11 +227,15 @@ export class Laboratory {
         this.report("error", message, parameter);
     }
 
-    /** The value in effect if none is given: the preset's, or the default. Two coefficients are DISC:WALL. */
+    /** The value in effect if none is given: the preset's, or the default. Two coefficients are
+     *  DISC:WALL. */
     effectiveValue(name: string): string {
         const {mu_disc, mu_wall, [name]: configured} = this.configuration;
-        const both = name !== "mu" ? undefined : mu_disc === mu_wall ? mu_disc : `${mu_disc}:${mu_wall}`;
-        return configured ?? both ?? this.parameters.find((row) => row.name === name)?.default ?? "";
+        const both =
+            name !== "mu" ? undefined : mu_disc === mu_wall ? mu_disc : `${mu_disc}:${mu_wall}`;
+        return (
+            configured ?? both ?? this.parameters.find((row) => row.name === name)?.default ?? ""
+        );
     }
     value(name: string): number {
         return Number(this.configuration[name]);
@@ -216,14 +250,20 @@ export class Laboratory {
     /** No contact and no floor dissipates energy. */
     conservesEnergy(): boolean {
         const {mu_disc, mu_wall, restitution, floor} = this.configuration;
-        return Number(mu_disc) === 0 && Number(mu_wall) === 0 && Number(restitution) === 1 &&
-            (floor ?? "none") === "none";
+        return (
+            Number(mu_disc) === 0 &&
+            Number(mu_wall) === 0 &&
+            Number(restitution) === 1 &&
+            (floor ?? "none") === "none"
+        );
     }
 
     /** The largest distance of the container's centre from S; by hand, twice the amplitude. */
     maxDistance(): number {
         const amplitude = Number(this.configuration["amplitude"] ?? 0);
-        return this.isByHand ? Math.max(2 * amplitude, 0.3 * this.value("container_radius")) : amplitude;
+        return this.isByHand
+            ? Math.max(2 * amplitude, 0.3 * this.value("container_radius"))
+            : amplitude;
     }
 
     private report<Kind extends keyof Reports>(kind: Kind, ...report: Reports[Kind]): void {

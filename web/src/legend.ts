@@ -1,14 +1,24 @@
-// The legend of the colours, in a lower corner of the image. It is part of the canvas, so saved images and movies contain it.
+// The legend of the colours, in a lower corner of the image. It is part of the canvas, so saved
+// images and movies contain it.
 import {mapColor} from "./maps";
 import {slidingColor} from "./marks";
 import {canvasFont} from "./page";
 import {diverging, looseColor, pinnedColor, type DrawOptions, type Palette} from "./scene";
 import {texts} from "./texts";
 
-const margin = 10, barWidth = 110, barHeight = 7, row = 17, narrow = 450; // pixels of the page
+const margin = 10,
+    barWidth = 110,
+    barHeight = 7,
+    row = 17,
+    narrow = 450; // pixels of the page
 
 /** `size` is the width of the image in pixels of the page. */
-export function drawLegend(context: CanvasRenderingContext2D, size: number, look: DrawOptions, palette: Palette): void {
+export function drawLegend(
+    context: CanvasRenderingContext2D,
+    size: number,
+    look: DrawOptions,
+    palette: Palette,
+): void {
     if (size < 220 || (size < 320 && look.coloring === "contacts")) return; // its rows would hide discs
     context.font = canvasFont(500, 12);
     context.textBaseline = "alphabetic";
@@ -20,7 +30,10 @@ export function drawLegend(context: CanvasRenderingContext2D, size: number, look
     };
     /** A bar with a text at each end. */
     const bar = (shade: (t: number) => string, low: string, high: string): void => {
-        const width = Math.max(barWidth, context.measureText(low).width + context.measureText(high).width + 12);
+        const width = Math.max(
+            barWidth,
+            context.measureText(low).width + context.measureText(high).width + 12,
+        );
         say(low);
         context.textAlign = "right";
         say(high, margin + width);
@@ -51,7 +64,8 @@ export function drawLegend(context: CanvasRenderingContext2D, size: number, look
         }
         chip(pinnedColor, texts.pinned, true);
         chip(palette.quiet, texts.loose, true);
-        if (kind === "density") bar((t) => `rgb(${mapColor(t, look.dark).join(" ")})`, texts.sparse, texts.dense);
+        if (kind === "density")
+            bar((t) => `rgb(${mapColor(t, look.dark).join(" ")})`, texts.sparse, texts.dense);
         else if (kind === "spin") bar(ofSpin, texts.spinAgainst, texts.spinWith);
         say(look.map.isEmpty ? texts.mapEmpty : texts.maps[kind]);
     } else if (look.coloring === "spin" || look.coloring === "contacts") {
@@ -71,5 +85,6 @@ export function drawLegend(context: CanvasRenderingContext2D, size: number, look
     context.fillStyle = palette.quiet;
     // In a small image M would be behind one long row.
     const rows = size < narrow ? look.note.split(/(?<=:) /) : [look.note];
-    for (const [k, text] of rows.reverse().entries()) context.fillText(text, size - margin, size - margin - k * row);
+    for (const [k, text] of rows.reverse().entries())
+        context.fillText(text, size - margin, size - margin - k * row);
 }

@@ -40,17 +40,28 @@ const share = new Share(lab, dish);
 const host = hostOf(lab, dish, player, transport);
 const discovery = new Discovery(byId("discovery"), host, (message) => showError(message));
 const explorer = new Explorer(byId("explorer"), host);
-const lesson = new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host, (message) => showError(message));
+const lesson = new Lesson(byId("lesson"), byId("lesson-start"), byId("panels"), host, (message) =>
+    showError(message),
+);
 const lessonButton = byId("lesson-open") as HTMLButtonElement;
 lessonButton.disabled = true; // the parameters in the page's address would replace the lesson's
-lab.on("ready", () => { lessonButton.disabled = false; });
+lab.on("ready", () => {
+    lessonButton.disabled = false;
+});
 new OpenedFile(byId("controls"), byId("options"), host, (message) => showError(message));
-for (const kind of ["started", "changed"] as const) lab.on(kind, () => { if (lab.missing === 0) discovery.visit(); });
+for (const kind of ["started", "changed"] as const)
+    lab.on(kind, () => {
+        if (lab.missing === 0) discovery.visit();
+    });
 lab.on("averages", (rotation) => discovery.follow(rotation));
-// The picture of index.html is shown until both containers have turned, or there is something else to see.
+// The picture of index.html is shown until both containers have turned, or there is something else
+// to see.
 const endFirstPicture = (): void => document.getElementById("first")?.remove();
 for (const kind of ["changed", "error"] as const) lab.on(kind, endFirstPicture);
-lab.on("averages", () => { if (verdict.finding.mean !== null && (dish.compared?.finding.mean ?? null) !== null) endFirstPicture(); });
+lab.on("averages", () => {
+    if (verdict.finding.mean !== null && (dish.compared?.finding.mean ?? null) !== null)
+        endFirstPicture();
+});
 dish.comparedChanged = () => {
     setPageEntry("beside", dish.compared?.follows ? dish.compared.given["discs"] : undefined);
     if (dish.compared) discovery.add(dish.compared.given);
@@ -73,11 +84,15 @@ function showError(message: string, parameter?: string): void {
 }
 lab.on("error", showError);
 lab.on("warning", (message) => setTimeout(() => showError(message))); // the beginning hides messages
-lab.on("begin", () => { error.hidden = true; });
+lab.on("begin", () => {
+    error.hidden = true;
+});
 
 let isFirst = false; // frame of a simulation
 let isExact = false; // the address asks for an event, so time stops there
-lab.on("begin", () => { isFirst = true; });
+lab.on("begin", () => {
+    isFirst = true;
+});
 lab.on("frame", () => {
     if (!isFirst) return;
     isFirst = false;
@@ -93,23 +108,41 @@ lab.on("ready", () => {
         // Each new visitor sees another run; a link keeps its own.
         const isClass = pageEntry("class") !== null;
         setPageEntry("class", undefined);
-        lab.given = isClass ? {...address.given, seed: newSeed()}
-            : Object.keys(address.given).length > 0 || address.events > 0 ? address.given : {seed: newSeed()};
-        discovery.changed = lesson.changed = dish.changed = transport.changed = followAddress(lab, () => discovery.fragment());
+        lab.given = isClass
+            ? {...address.given, seed: newSeed()}
+            : Object.keys(address.given).length > 0 || address.events > 0
+              ? address.given
+              : {seed: newSeed()};
+        discovery.changed =
+            lesson.changed =
+            dish.changed =
+            transport.changed =
+                followAddress(lab, () => discovery.fragment());
         dish.changed(); // what the address had and the page does not know
         isExact = address.events > 0;
         const isNew = Object.keys(address.given).length === 0 && address.events === 0;
-        const beside = readBeside(lab, isNew), {discs: _, ...others} = lab.given;
-        if (beside) dish.compare({...others, discs: beside}, lab.counted(Number(beside), others), true);
+        const beside = readBeside(lab, isNew),
+            {discs: _, ...others} = lab.given;
+        if (beside)
+            dish.compare({...others, discs: beside}, lab.counted(Number(beside), others), true);
         lab.begin(address.events);
         lesson.open();
     }
     discovery.readLink();
-    byId("explorer").after(new MyDish(host, discovery, (text, from) => void share.copy(text, from, from.textContent!), showError, () => {
-        const {seed: _, ...given} = lab.given, address = new URL(addressOf(given), location.href);
-        address.searchParams.set("class", "1");
-        return address.href;
-    }).panel);
+    byId("explorer").after(
+        new MyDish(
+            host,
+            discovery,
+            (text, from) => void share.copy(text, from, from.textContent!),
+            showError,
+            () => {
+                const {seed: _, ...given} = lab.given,
+                    address = new URL(addressOf(given), location.href);
+                address.searchParams.set("class", "1");
+                return address.href;
+            },
+        ).panel,
+    );
     buildGallery(lab, (given) => {
         if (dish.compared?.follows) dish.compare();
         lab.set(lab.withSeed(given), {all: true, restart: true});
@@ -117,10 +150,12 @@ lab.on("ready", () => {
     player.start();
 });
 
-byId("panels").prepend(new CausePanel(lab, player.reducedMotion, () => {
-    host.show(lab.withSeed({discs: "48"}), {view: "lab", coloring: "contacts", beside: "8"});
-    byId("dish").scrollIntoView({block: "nearest"});
-}).panel);
+byId("panels").prepend(
+    new CausePanel(lab, player.reducedMotion, () => {
+        host.show(lab.withSeed({discs: "48"}), {view: "lab", coloring: "contacts", beside: "8"});
+        byId("dish").scrollIntoView({block: "nearest"});
+    }).panel,
+);
 const profile = new Profile(lab);
 dish.needsMaps = (): boolean => profile.panel.open;
 byId("profile").replaceChildren(profile.panel);

@@ -1,5 +1,5 @@
-// Averages in the M-frame behind the discs, as in the paper's Figures 2 and 5: density, flow relative to the
-// container, and spin.
+// Averages in the M-frame behind the discs, as in the paper's Figures 2 and 5: density, flow
+// relative to the container, and spin.
 import type {Maps} from "./messages";
 import {element} from "./page";
 import {diverging, paletteOf} from "./scene";
@@ -15,11 +15,22 @@ export interface MapLayer {
 const spinTo = 0.6; // Ω
 const densityTo = 0.32; // discs per r²; a dense packing has 0.289
 
-/** From the floor of the container to blue to its text colour: dense regions have the most contrast. */
+/** From the floor of the container to blue to its text colour: dense regions have the most
+ *  contrast. */
 export function mapColor(t: number, isDark: boolean): [number, number, number] {
-    const stops = isDark ? [[29, 34, 38], [38, 96, 150], [200, 224, 246]]
-                         : [[255, 255, 255], [124, 178, 220], [16, 52, 98]];
-    const [from, to, s] = t < 0.5 ? [stops[0]!, stops[1]!, 2 * t] : [stops[1]!, stops[2]!, 2 * t - 1];
+    const stops = isDark
+        ? [
+              [29, 34, 38],
+              [38, 96, 150],
+              [200, 224, 246],
+          ]
+        : [
+              [255, 255, 255],
+              [124, 178, 220],
+              [16, 52, 98],
+          ];
+    const [from, to, s] =
+        t < 0.5 ? [stops[0]!, stops[1]!, 2 * t] : [stops[1]!, stops[2]!, 2 * t - 1];
     return [0, 1, 2].map((k) => from[k]! + s * (to[k]! - from[k]!)) as [number, number, number];
 }
 
@@ -32,13 +43,21 @@ let painted: {of: Maps; kind: MapKind; isDark: boolean; image: HTMLCanvasElement
 
 /** The values of a square grid as an image; rows count from below. */
 function imageOf(maps: Maps, kind: "density" | "spin", isDark: boolean): HTMLCanvasElement {
-    if (painted?.of === maps && painted.kind === kind && painted.isDark === isDark) return painted.image;
-    const values = maps[kind], side = Math.round(Math.sqrt(values.length));
-    const image = element("canvas", {width: side, height: side}), data = new ImageData(side, side);
+    if (painted?.of === maps && painted.kind === kind && painted.isDark === isDark)
+        return painted.image;
+    const values = maps[kind],
+        side = Math.round(Math.sqrt(values.length));
+    const image = element("canvas", {width: side, height: side}),
+        data = new ImageData(side, side);
     for (const [k, value] of values.entries()) {
-        const shade = kind === "density" ? mapColor(Math.max(0, Math.min(1, value / densityTo)), isDark)
-                                         : diverging(value / spinTo);
-        data.data.set(Number.isFinite(value) ? [...shade, kind === "spin" ? 210 : 255] : [0, 0, 0, 0], 4 * k);
+        const shade =
+            kind === "density"
+                ? mapColor(Math.max(0, Math.min(1, value / densityTo)), isDark)
+                : diverging(value / spinTo);
+        data.data.set(
+            Number.isFinite(value) ? [...shade, kind === "spin" ? 210 : 255] : [0, 0, 0, 0],
+            4 * k,
+        );
     }
     image.getContext("2d")?.putImageData(data, 0, 0);
     painted = {of: maps, kind, isDark, image};
@@ -46,7 +65,12 @@ function imageOf(maps: Maps, kind: "density" | "spin", isDark: boolean): HTMLCan
 }
 
 /** Draws in the M-frame, with the container's centre at the origin. */
-export function drawMap(context: CanvasRenderingContext2D, {kind, maps}: MapLayer, radius: number, isDark: boolean): void {
+export function drawMap(
+    context: CanvasRenderingContext2D,
+    {kind, maps}: MapLayer,
+    radius: number,
+    isDark: boolean,
+): void {
     if (!maps) return;
     if (kind === "flow") return drawFlow(context, maps.flow, isDark);
     if (maps[kind].length === 0) return;
@@ -58,7 +82,11 @@ export function drawMap(context: CanvasRenderingContext2D, {kind, maps}: MapLaye
     context.restore();
 }
 
-function drawFlow(context: CanvasRenderingContext2D, {x, y, ux, uy}: Maps["flow"], isDark: boolean): void {
+function drawFlow(
+    context: CanvasRenderingContext2D,
+    {x, y, ux, uy}: Maps["flow"],
+    isDark: boolean,
+): void {
     const cell = x.length > 1 ? x[1]! - x[0]! : 0;
     context.strokeStyle = context.fillStyle = paletteOf(isDark).against;
     context.lineWidth = 0.12 * cell;

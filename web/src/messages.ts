@@ -1,17 +1,29 @@
 // The messages between the page and its worker.
-import type {Cause, Crossing, NextRuns, Parameter, Rate, Rotation, RunNumbers, SearchedNumbers, SearchRules} from "./engine";
+import type {
+    Cause,
+    Crossing,
+    NextRuns,
+    Parameter,
+    Rate,
+    Rotation,
+    RunNumbers,
+    SearchedNumbers,
+    SearchRules,
+} from "./engine";
 
 export type ToWorker =
     | {kind: "engine"; bytes: ArrayBuffer}
     /** Starts a simulation and executes this many events. Answers carry the number `run`. */
     | {kind: "begin"; given: Record<string, string>; events: number; run: number}
-    /** Advances time by this many periods; with `strobe`, at most to the end of the present one. Answered by
-     *  a frame. */
+    /** Advances time by this many periods; with `strobe`, at most to the end of the present one.
+     *  Answered by a frame. */
     | {kind: "tick"; periods: number; strobe?: boolean}
-    /** Advances by this many whole periods without frames in between. Answered by progress and a frame. */
+    /** Advances by this many whole periods without frames in between. Answered by progress and a
+     *  frame. */
     | {kind: "skip"; periods: number}
     | {kind: "step"}
-    /** Other friction coefficients or another number for the same discs; another path from the next period on. */
+    /** Other friction coefficients or another number for the same discs; another path from the next
+     *  period on. */
     | {kind: "change"; given: Record<string, string>}
     /** By hand: the container moves straight to a point within `duration`. Answered by a frame. */
     | {kind: "steer"; x: number; y: number; duration: number}
@@ -20,7 +32,8 @@ export type ToWorker =
     /** Moves a disc to the free position nearest to a point. Answered by a frame. */
     | {kind: "drag"; disc: number; x: number; y: number}
     | {kind: "result"}
-    /** Whether maps and the pinned discs are measured from now on, and whether frames have the collisions before them. */
+    /** Whether maps and the pinned discs are measured from now on, and whether frames have the
+     *  collisions before them. */
     | {kind: "measure"; maps: boolean; contacts: boolean}
     | {kind: "maps"}
     /** A whole run with this many periods after the warm-up. */
@@ -43,8 +56,8 @@ export interface Frame {
     kind: "frame";
     run: number;
     frame: Float64Array;
-    /** Turns of the cluster since the averages began, or in the warm-up since its start: the mean over the
-     *  discs, and the rigid body. */
+    /** Turns of the cluster since the averages began, or in the warm-up since its start: the mean
+     *  over the discs, and the rigid body. */
     turns: [number, number];
     events: number;
     hash: string;
@@ -68,9 +81,15 @@ export type FromWorker =
     | {kind: "progress"; run: number; unit: "events" | "periods"; done: number; all: number}
     /** The browser cannot run the engine. */
     | {kind: "unsupported"}
-    /** Whether the discs continue with the change; if not, a new simulation is needed. The missing discs are
-     *  added when there is room. */
-    | {kind: "changed"; run: number; kept: boolean; missing: number; configuration: Record<string, string>}
+    /** Whether the discs continue with the change; if not, a new simulation is needed. The missing
+     *  discs are added when there is room. */
+    | {
+          kind: "changed";
+          run: number;
+          kept: boolean;
+          missing: number;
+          configuration: Record<string, string>;
+      }
     | {kind: "reversed"; done: boolean}
     /** JSON as the command line writes it. */
     | {kind: "result"; text: string}

@@ -1,5 +1,5 @@
-// Files of the command line on the page: a result or a checkpoint sets the parameters, and the page repeats the
-// run and compares.
+// Files of the command line on the page: a result or a checkpoint sets the parameters, and the page
+// repeats the run and compares.
 import {rates, type Estimate} from "./engine";
 import type {Host, Values} from "./host";
 import {button, element, withError} from "./page";
@@ -20,24 +20,35 @@ export type Opened =
     | {kind: "result"; given: Values; result: Result}
     | {kind: "checkpoint"; given: Values; events: number};
 
-/** Thrown for a file that the page cannot read; `problem` is a key of texts.opened, `what` its wrong value. */
+/** Thrown for a file that the page cannot read; `problem` is a key of texts.opened, `what` its
+ *  wrong value. */
 export class NotReadable extends Error {
-    constructor(readonly problem: "unknown" | "damaged" | "noParameters" | "wrongValue", readonly what = "") { super(problem); }
+    constructor(
+        readonly problem: "unknown" | "damaged" | "noParameters" | "wrongValue",
+        readonly what = "",
+    ) {
+        super(problem);
+    }
 }
 
 const maxBytes = 50e6;
 const maxRepeated = 2e7; // events
 
-/** The parameters of a run, as the page takes them, from the JSON of the command line. Values that follow from
- *  others, and the length of the run, are omitted. */
-export function givenFrom(config: Record<string, unknown>, known: readonly {name: string; settable: boolean; default: string}[]): Values {
-    const given: Values = {}, fixed = ["events", "periods", "speed"];
+/** The parameters of a run, as the page takes them, from the JSON of the command line. Values that
+ *  follow from others, and the length of the run, are omitted. */
+export function givenFrom(
+    config: Record<string, unknown>,
+    known: readonly {name: string; settable: boolean; default: string}[],
+): Values {
+    const given: Values = {},
+        fixed = ["events", "periods", "speed"];
     for (const {name, settable, default: standard} of known) {
         const value = config[name];
         if (!settable || fixed.includes(name) || value === null || value === undefined) continue;
         const text = isObject(value) ? mixtureText(value) : String(value);
         // Numbers are compared as numbers: "1.0" is the default "1".
-        const isDefault = text === standard || (standard !== "" && Number(text) === Number(standard));
+        const isDefault =
+            text === standard || (standard !== "" && Number(text) === Number(standard));
         if (!isDefault) given[name] = text;
     }
     // The default is the name of a value: that of the paper's discs.
@@ -88,46 +99,66 @@ export function readFile(bytes: ArrayBuffer, known: Known): Opened {
 const isNumber = (value: unknown): boolean => typeof value === "number" && Number.isFinite(value);
 const isMissing = (value: unknown): boolean => value === null || value === undefined;
 
-/** Throws NotReadable for a value of a result that the page would use and that is not of its kind. */
+/** Throws NotReadable for a value of a result that the page would use and that is not of its kind.
+ *  */
 function requireValues(result: Record<string, unknown>): void {
     const require = (name: string, value: unknown, holds: boolean): void => {
-        if (!holds) throw new NotReadable("wrongValue", `${name} = ${String(JSON.stringify(value)).slice(0, 60)}`);
+        if (!holds)
+            throw new NotReadable(
+                "wrongValue",
+                `${name} = ${String(JSON.stringify(value)).slice(0, 60)}`,
+            );
     };
     const inside = (value: unknown): Record<string, unknown> => (isObject(value) ? value : {});
-    const {total} = inside(result["events"]), {periods} = inside(result["warmup"]);
+    const {total} = inside(result["events"]),
+        {periods} = inside(result["warmup"]);
     require("events.total", total, Number.isSafeInteger(total) && (total as number) >= 0);
     require("warmup.periods", periods, isMissing(periods) || isNumber(periods));
     const {state_hash: hash} = result;
     require("state_hash", hash, isMissing(hash) || typeof hash === "string");
-    for (const rate of rates) for (const key of ["mean", "error"]) {
-        const value = inside(inside(result["rotation"])[rate])[key];
-        require(`rotation.${rate}.${key}`, value, isMissing(value) || isNumber(value));
-    }
+    for (const rate of rates)
+        for (const key of ["mean", "error"]) {
+            const value = inside(inside(result["rotation"])[rate])[key];
+            require(`rotation.${rate}.${key}`, value, isMissing(value) || isNumber(value));
+        }
 }
 
-/** The layout is that of src/swirl/io/checkpoint.hpp. The state begins with the numbers of recorded frames, of
- *  logged events, and of events. */
+/** The layout is that of src/swirl/io/checkpoint.hpp. The state begins with the numbers of recorded
+ *  frames, of logged events, and of events. */
 function readCheckpoint(all: Uint8Array, known: Known): Opened {
     const view = new DataView(all.buffer, all.byteOffset, all.byteLength);
     const line = all.indexOf(10) + 1;
     if (line === 0 || all.length < line + 8) throw new NotReadable("damaged");
-    const size = Number(view.getBigUint64(line, true)), state = line + 8 + size;
+    const size = Number(view.getBigUint64(line, true)),
+        state = line + 8 + size;
     if (!(state + 32 <= all.length)) throw new NotReadable("damaged"); // also for a size beyond 2^53
     const about = parsed(new TextDecoder().decode(all.subarray(line + 8, state)));
     const identity = isObject(about) ? about["identity"] : undefined;
     const config = isObject(identity) ? identity["parameters"] : undefined;
     if (!isObject(config)) throw new NotReadable("noParameters");
-    return {kind: "checkpoint", given: givenFrom(config, known), events: Number(view.getBigUint64(state + 24, true))};
+    return {
+        kind: "checkpoint",
+        given: givenFrom(config, known),
+        events: Number(view.getBigUint64(state + 24, true)),
+    };
 }
 
 export class OpenedFile {
     private readonly place = element("section", {id: "opened", hidden: true});
-    private readonly choose = element("input", {type: "file", id: "open-file", accept: ".json,.checkpoint,.partial"});
+    private readonly choose = element("input", {
+        type: "file",
+        id: "open-file",
+        accept: ".json,.checkpoint,.partial",
+    });
     private runs: Runs | undefined;
 
     /** The section with the file goes to `place`, the button to `buttons`. */
-    constructor(place: HTMLElement, buttons: HTMLElement, private readonly host: Host,
-                private readonly fail: (message: string) => void) {
+    constructor(
+        place: HTMLElement,
+        buttons: HTMLElement,
+        private readonly host: Host,
+        private readonly fail: (message: string) => void,
+    ) {
         place.prepend(this.place);
         this.choose.hidden = true;
         this.choose.addEventListener("change", () => {
@@ -142,7 +173,8 @@ export class OpenedFile {
     }
 
     private acceptDrops(): void {
-        const hasFiles = (event: DragEvent): boolean => event.dataTransfer?.types.includes("Files") ?? false;
+        const hasFiles = (event: DragEvent): boolean =>
+            event.dataTransfer?.types.includes("Files") ?? false;
         const mark = (on: boolean): void => {
             document.body.classList.toggle("drops", on);
             document.body.dataset["drop"] = texts.opened.drop;
@@ -152,7 +184,9 @@ export class OpenedFile {
             event.preventDefault();
             mark(true);
         });
-        document.addEventListener("dragleave", (event) => { if (!event.relatedTarget) mark(false); });
+        document.addEventListener("dragleave", (event) => {
+            if (!event.relatedTarget) mark(false);
+        });
         document.addEventListener("drop", (event) => {
             if (!hasFiles(event)) return;
             event.preventDefault();
@@ -164,11 +198,15 @@ export class OpenedFile {
 
     async open(file: File): Promise<void> {
         this.close();
-        if (file.size > maxBytes) return this.fail(fill(texts.opened.tooLarge, {name: file.name, most: maxBytes / 1e6}));
+        if (file.size > maxBytes)
+            return this.fail(fill(texts.opened.tooLarge, {name: file.name, most: maxBytes / 1e6}));
         try {
             this.show(readFile(await file.arrayBuffer(), this.host.parameters()), file.name);
         } catch (error) {
-            if (error instanceof NotReadable) return this.fail(fill(texts.opened[error.problem], {name: file.name, what: error.what}));
+            if (error instanceof NotReadable)
+                return this.fail(
+                    fill(texts.opened[error.problem], {name: file.name, what: error.what}),
+                );
             throw error;
         }
     }
@@ -185,25 +223,45 @@ export class OpenedFile {
         const end = button("×", () => this.close(), "close-opened");
         end.setAttribute("aria-label", texts.opened.close);
         end.title = texts.opened.close;
-        const heading = opened.kind === "result" ? fill(texts.opened.result, {name})
-            : fill(texts.opened.checkpoint, {name, events: opened.events});
+        const heading =
+            opened.kind === "result"
+                ? fill(texts.opened.result, {name})
+                : fill(texts.opened.checkpoint, {name, events: opened.events});
         const status = element("p", {id: "opened-status", textContent: texts.opened.parametersSet});
         status.setAttribute("role", "status");
         this.place.hidden = false;
-        this.place.replaceChildren(element("div", {className: "row-of-caption"}, element("h2", {textContent: heading}), end), status);
+        this.place.replaceChildren(
+            element(
+                "div",
+                {className: "row-of-caption"},
+                element("h2", {textContent: heading}),
+                end,
+            ),
+            status,
+        );
         const result = opened.kind === "result" ? opened.result : undefined;
-        void this.compare(opened.given, opened.kind === "result" ? opened.result.events.total : opened.events, result, status);
+        void this.compare(
+            opened.given,
+            opened.kind === "result" ? opened.result.events.total : opened.events,
+            result,
+            status,
+        );
     }
 
     /** Repeats the run to its last event and shows both results. */
-    private async compare(given: Values, events: number, result: Result | undefined, status: HTMLElement): Promise<void> {
+    private async compare(
+        given: Values,
+        events: number,
+        result: Result | undefined,
+        status: HTMLElement,
+    ): Promise<void> {
         if (events > maxRepeated) {
             status.textContent = fill(texts.opened.tooLong, {events, most: maxRepeated});
             if (result) this.place.append(comparison(result, undefined));
             return;
         }
         status.textContent = texts.opened.comparing;
-        const runs = this.runs = new Runs(() => this.host.newWorker(), 1);
+        const runs = (this.runs = new Runs(() => this.host.newWorker(), 1));
         let page: Result;
         try {
             page = JSON.parse(await runs.result(given, events)) as Result;
@@ -214,8 +272,11 @@ export class OpenedFile {
         if (this.runs !== runs) return;
         runs.stop();
         this.runs = undefined;
-        status.textContent = !result?.state_hash ? texts.opened.parametersSet
-            : result.state_hash === page.state_hash ? texts.opened.sameHash : texts.opened.otherHash;
+        status.textContent = !result?.state_hash
+            ? texts.opened.parametersSet
+            : result.state_hash === page.state_hash
+              ? texts.opened.sameHash
+              : texts.opened.otherHash;
         this.place.append(comparison(result ?? page, result ? page : undefined));
     }
 }
@@ -228,16 +289,33 @@ function comparison(file: Result, page: Result | undefined): HTMLElement {
     };
     const names: Record<string, string> = texts.rateNames;
     const rows: [string, (result: Result) => string][] = [
-        ...rates.map((rate): [string, (result: Result) => string] =>
-            [`${symbols.rotation} ${names[rate]}`, (result) => estimate(result, rate)]),
+        ...rates.map((rate): [string, (result: Result) => string] => [
+            `${symbols.rotation} ${names[rate]}`,
+            (result) => estimate(result, rate),
+        ]),
         [texts.opened.events, ({events}) => String(events.total)],
         [texts.opened.hash, ({state_hash}) => state_hash ?? texts.notYet],
     ];
-    const cells = (of: (result: Result) => string): string[] => [of(file), ...(page ? [of(page)] : [])];
-    const head = [texts.opened.quantity, texts.opened.inFile,
-                  ...(page ? [texts.opened.onPage] : [])];
-    return element("table", {id: "comparison"},
+    const cells = (of: (result: Result) => string): string[] => [
+        of(file),
+        ...(page ? [of(page)] : []),
+    ];
+    const head = [
+        texts.opened.quantity,
+        texts.opened.inFile,
+        ...(page ? [texts.opened.onPage] : []),
+    ];
+    return element(
+        "table",
+        {id: "comparison"},
         element("tr", {}, ...head.map((each) => element("th", {textContent: each, scope: "col"}))),
-        ...rows.map(([name, of]) => element("tr", {}, element("th", {textContent: name, scope: "row"}),
-                                            ...cells(of).map((each) => element("td", {textContent: each})))));
+        ...rows.map(([name, of]) =>
+            element(
+                "tr",
+                {},
+                element("th", {textContent: name, scope: "row"}),
+                ...cells(of).map((each) => element("td", {textContent: each})),
+            ),
+        ),
+    );
 }

@@ -2,8 +2,10 @@
 import {language} from "./start";
 
 export function element<Tag extends keyof HTMLElementTagNameMap>(
-    tag: Tag, properties: Partial<HTMLElementTagNameMap[Tag]> = {},
-    ...children: (Node | string)[]): HTMLElementTagNameMap[Tag] {
+    tag: Tag,
+    properties: Partial<HTMLElementTagNameMap[Tag]> = {},
+    ...children: (Node | string)[]
+): HTMLElementTagNameMap[Tag] {
     const made = Object.assign(document.createElement(tag), properties);
     made.append(...children);
     return made;
@@ -24,14 +26,17 @@ export function button(text: string, act: () => void, id = ""): HTMLButtonElemen
 const downloadStarts = 60_000; // milliseconds; there is no event for the end of a save dialog
 
 /** Downloads a text, bytes, or the content at an address. */
-export function save(name: string,
-                     content: {href: string} | {bytes: Blob} | {text: string; type: string}): void {
+export function save(
+    name: string,
+    content: {href: string} | {bytes: Blob} | {text: string; type: string},
+): void {
     if ("href" in content) {
         element("a", {href: content.href, download: name}).click();
         return;
     }
     const href = URL.createObjectURL(
-        "bytes" in content ? content.bytes : new Blob([content.text], {type: content.type}));
+        "bytes" in content ? content.bytes : new Blob([content.text], {type: content.type}),
+    );
     element("a", {href, download: name}).click();
     // The address keeps its content in memory until it is revoked.
     setTimeout(() => URL.revokeObjectURL(href), downloadStarts);
@@ -51,15 +56,21 @@ export const accent = (): string => style("--accent");
 export const dark = (): boolean => matchMedia("(prefers-color-scheme: dark)").matches;
 
 /** Numbers with the decimal sign of the page's language. */
-export const localized = (text: string): string => language === "de" ? text.replace(/(\d)\.(?=\d)/g, "$1,") : text;
+export const localized = (text: string): string =>
+    language === "de" ? text.replace(/(\d)\.(?=\d)/g, "$1,") : text;
 /** A number as it was typed, with a decimal point. */
-export const typedNumber = (text: string): string => language === "de" ? text.replaceAll(",", ".") : text;
-/** A list as it was typed, separated by commas; where these are decimal signs, semicolons separate. */
-export const typedList = (text: string): string => language === "de" ? typedNumber(text).replaceAll(";", ",") : text;
-export const shownList = (text: string): string => language === "de" ? localized(text.replaceAll(",", ";")) : text;
+export const typedNumber = (text: string): string =>
+    language === "de" ? text.replaceAll(",", ".") : text;
+/** A list as it was typed, separated by commas; where these are decimal signs, semicolons separate.
+ *  */
+export const typedList = (text: string): string =>
+    language === "de" ? typedNumber(text).replaceAll(";", ",") : text;
+export const shownList = (text: string): string =>
+    language === "de" ? localized(text.replaceAll(",", ";")) : text;
 
 /** With a minus sign. */
-export const signed = (x: number, decimals: number): string => localized(x.toFixed(decimals).replace("-", "−"));
+export const signed = (x: number, decimals: number): string =>
+    localized(x.toFixed(decimals).replace("-", "−"));
 
 export function withError(mean: number | null, error: number | null, unknown: string): string {
     if (mean === null) return unknown;

@@ -1,10 +1,10 @@
-// Paints each disc by the sector of the cluster in which it is. The colours stay with the discs, so the
-// pattern shows how far the cluster has turned, and how it mixes.
+// Paints each disc by the sector of the cluster in which it is. The colours stay with the discs, so
+// the pattern shows how far the cluster has turned, and how it mixes.
 import {frameDisc, frameHead} from "./engine";
 import {centreOf} from "./strobe";
 
-/** Around the circle, neighbouring colours are similar; readers with any colour vision can tell opposite
- *  ones apart (after Okabe and Ito 2008, https://jfly.uni-koeln.de/color). */
+/** Around the circle, neighbouring colours are similar; readers with any colour vision can tell
+ *  opposite ones apart (after Okabe and Ito 2008, https://jfly.uni-koeln.de/color). */
 export const sectorColors = ["#2a6db0", "#62b5e5", "#2a9d80", "#f3d95a", "#ea9f33", "#d65f2b"];
 
 export class SectorPaint {
@@ -19,15 +19,18 @@ export class SectorPaint {
 
     /** Paints the discs that are new; the others keep their colours. */
     extend(f: Float64Array): void {
-        const turns = anglesOf(f), begin = Math.min(this.sectors.length, turns.length);
+        const turns = anglesOf(f),
+            begin = Math.min(this.sectors.length, turns.length);
         this.sectors.length = turns.length;
         for (let i = begin; i < turns.length; ++i)
-            this.sectors[i] = Math.floor((turns[i]! + 1) * sectorColors.length) % sectorColors.length;
+            this.sectors[i] =
+                Math.floor((turns[i]! + 1) * sectorColors.length) % sectorColors.length;
     }
 
     /** Whether the colours have mixed so much that the pattern shows no rotation. */
     isMixed(f: Float64Array): boolean {
-        const turns = anglesOf(f), sums = sectorColors.map(() => [0, 0, 0] as [number, number, number]);
+        const turns = anglesOf(f),
+            sums = sectorColors.map(() => [0, 0, 0] as [number, number, number]);
         for (const [i, turn] of turns.entries()) {
             const sum = sums[this.sectors[i] ?? 0]!;
             sum[0] += Math.cos(2 * Math.PI * turn);

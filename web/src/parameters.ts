@@ -1,4 +1,5 @@
-// The controls of the parameters: large sliders for the most important ones, and the others in groups.
+// The controls of the parameters: large sliders for the most important ones, and the others in
+// groups.
 import type {Parameter} from "./engine";
 import type {Laboratory} from "./laboratory";
 import {byId, element, localized, typedNumber} from "./page";
@@ -12,57 +13,108 @@ interface Field {
 }
 
 const main = ["discs", "mu", "amplitude"];
-/** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen by the engine. */
-const notShown = ["events", "events_per_sample", "frictionless", "initial", "length_unit", "periods", "ramp", "time_unit"];
+/** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen
+ *  by the engine. */
+const notShown = [
+    "events",
+    "events_per_sample",
+    "frictionless",
+    "initial",
+    "length_unit",
+    "periods",
+    "ramp",
+    "time_unit",
+];
 const groups = {
     friction: ["mu_disc", "mu_wall"],
     particles: ["preset", "body", "radius", "mass", "inertia", "cannot_spin", "mixture", "sizes"],
     collisions: ["restitution", "tangential_restitution", "contact_duration"],
-    floor: ["floor", "floor_friction", "gravity", "rolling_resistance", "vertical_disc", "vertical_wall"],
+    floor: [
+        "floor",
+        "floor_friction",
+        "gravity",
+        "rolling_resistance",
+        "vertical_disc",
+        "vertical_wall",
+    ],
     container: ["container_radius", "period", "speed", "path", "sides", "direction", "path_phase"],
     run: ["warmup", "seed"],
 };
 
 /** Whether a parameter has an effect with these values in effect. */
 function applies(name: string, {body, floor, restitution, path}: Record<string, string>): boolean {
-    const sphere = body === "sphere", onFloor = floor !== undefined && floor !== "none";
+    const sphere = body === "sphere",
+        onFloor = floor !== undefined && floor !== "none";
     switch (name) {
-        case "contact_duration": return Number(restitution) < 1;
-        case "floor_friction": case "gravity": return onFloor;
-        case "rolling_resistance": return onFloor && sphere;
-        case "vertical_disc": case "vertical_wall": return sphere;
-        case "sides": return path !== "circle";
-        default: return true;
+        case "contact_duration":
+            return Number(restitution) < 1;
+        case "floor_friction":
+        case "gravity":
+            return onFloor;
+        case "rolling_resistance":
+            return onFloor && sphere;
+        case "vertical_disc":
+        case "vertical_wall":
+            return sphere;
+        case "sides":
+            return path !== "circle";
+        default:
+            return true;
     }
 }
 
 /** At most four significant digits. */
-const shortened = (value: string): string => /^\d*\.\d{4,}$/.test(value) ? String(Number(Number(value).toPrecision(4))) : value;
+const shortened = (value: string): string =>
+    /^\d*\.\d{4,}$/.test(value) ? String(Number(Number(value).toPrecision(4))) : value;
 
-/** The words among the values of a parameter, from its form: "none|sliding", "NUMBER|paper|solid". */
-const wordsOf = ({form}: Parameter): string[] => form.split("|").filter((word) => /^[a-z-]+$/.test(word));
+/** The words among the values of a parameter, from its form: "none|sliding", "NUMBER|paper|solid".
+ *  */
+const wordsOf = ({form}: Parameter): string[] =>
+    form.split("|").filter((word) => /^[a-z-]+$/.test(word));
 
-/** A list of choices if all values are words; a text field with suggestions if numbers are allowed, too. */
+/** A list of choices if all values are words; a text field with suggestions if numbers are allowed,
+ *  too. */
 function textField(row: Parameter, id: string): [Field["text"], ...HTMLElement[]] {
     const words = wordsOf(row);
     if (words.length > 0 && words.length === row.form.split("|").length)
-        return [element("select", {id}, ...(words.includes(row.default) ? words : ["", ...words])
-            .map((word) => element("option", {value: word, textContent: word})))];
-    const text = element("input", {type: "text", id, spellcheck: false, autocomplete: "off",
-                                   inputMode: words.length === 0 && row.slider ? "decimal" : "text"});
+        return [
+            element(
+                "select",
+                {id},
+                ...(words.includes(row.default) ? words : ["", ...words]).map((word) =>
+                    element("option", {value: word, textContent: word}),
+                ),
+            ),
+        ];
+    const text = element("input", {
+        type: "text",
+        id,
+        spellcheck: false,
+        autocomplete: "off",
+        inputMode: words.length === 0 && row.slider ? "decimal" : "text",
+    });
     if (words.length === 0) return [text];
     text.setAttribute("list", `${id}-words`);
-    return [text, element("datalist", {id: `${id}-words`},
-                          ...words.map((word) => element("option", {value: word})))];
+    return [
+        text,
+        element(
+            "datalist",
+            {id: `${id}-words`},
+            ...words.map((word) => element("option", {value: word})),
+        ),
+    ];
 }
 
-/** A value that is no number, such as a word or two coefficients, leaves the slider without a thumb. */
+/** A value that is no number, such as a word or two coefficients, leaves the slider without a
+ *  thumb. */
 function showOn(slider: HTMLInputElement, value: string): void {
     const isNumber = value !== "" && Number.isFinite(Number(value));
     if (isNumber) slider.value = value;
     slider.setAttribute("aria-valuetext", localized(value));
     slider.classList.toggle("unset", !isNumber);
-    const share = isNumber ? (Number(slider.value) - Number(slider.min)) / (Number(slider.max) - Number(slider.min)) : 0;
+    const share = isNumber
+        ? (Number(slider.value) - Number(slider.min)) / (Number(slider.max) - Number(slider.min))
+        : 0;
     slider.style.setProperty("--share", `${100 * share}%`);
 }
 
@@ -79,40 +131,92 @@ export class Parameters {
     }
 
     private build(): void {
-        const shown = this.lab.parameters.filter((row) => row.settable && !notShown.includes(row.name));
+        const shown = this.lab.parameters.filter(
+            (row) => row.settable && !notShown.includes(row.name),
+        );
         const byName = (name: string): Parameter[] => shown.filter((row) => row.name === name);
-        this.spheres.addEventListener("change", () => this.lab.set(
-            {preset: this.spheres.checked ? "experiment" : "", body: "", floor: ""}, {restart: true}));
+        this.spheres.addEventListener("change", () =>
+            this.lab.set(
+                {preset: this.spheres.checked ? "experiment" : "", body: "", floor: ""},
+                {restart: true},
+            ),
+        );
         byId("main-controls").replaceChildren(
-            ...main.flatMap(byName).map((row, k) => this.control(row, k < 2 ? "control large" : "control")),
-            element("label", {className: "control check", title: texts.spheresHelp}, this.spheres, ` ${texts.spheres}`));
+            ...main
+                .flatMap(byName)
+                .map((row, k) => this.control(row, k < 2 ? "control large" : "control")),
+            element(
+                "label",
+                {className: "control check", title: texts.spheresHelp},
+                this.spheres,
+                ` ${texts.spheres}`,
+            ),
+        );
         const listed = [...main, ...Object.values(groups).flat()];
         const others = shown.filter((row) => !listed.includes(row.name)).map((row) => row.name);
-        this.groups.splice(0, Infinity, ...Object.entries({...groups, run: [...groups.run, ...others]}).map(
-            ([group, names]) => element("fieldset", {},
-                element("legend", {textContent: texts.groups[group] ?? group}),
-                ...names.flatMap(byName).map((row) => this.control(row, "control")))));
-        byId("more").replaceChildren(element("details", {id: "parameters"},
-            element("summary", {textContent: texts.more}),
-            element("div", {className: "groups"}, ...this.groups)));
+        this.groups.splice(
+            0,
+            Infinity,
+            ...Object.entries({...groups, run: [...groups.run, ...others]}).map(([group, names]) =>
+                element(
+                    "fieldset",
+                    {},
+                    element("legend", {textContent: texts.groups[group] ?? group}),
+                    ...names.flatMap(byName).map((row) => this.control(row, "control")),
+                ),
+            ),
+        );
+        byId("more").replaceChildren(
+            element(
+                "details",
+                {id: "parameters"},
+                element("summary", {textContent: texts.more}),
+                element("div", {className: "groups"}, ...this.groups),
+            ),
+        );
         this.show();
     }
 
     private control(row: Parameter, className: string): HTMLElement {
         const id = `parameter-${row.name}`;
-        const [text, ...proposed] = textField(row, id), [symbol, index] = row.symbol.split("_");
-        const title = `${texts.descriptions[row.name] ?? row.description}${row.unit ? ` (${row.unit})` : ""}\n` +
+        const [text, ...proposed] = textField(row, id),
+            [symbol, index] = row.symbol.split("_");
+        const title =
+            `${texts.descriptions[row.name] ?? row.description}${row.unit ? ` (${row.unit})` : ""}\n` +
             `--${row.name.replaceAll("_", "-")}`;
-        const label = element("label", {htmlFor: id, title}, texts.labels[row.name] ?? row.name,
-            ...(symbol ? [" ", element("i", {}, symbol, ...(index ? [element("sub", {textContent: index})] : []))] : []));
+        const label = element(
+            "label",
+            {htmlFor: id, title},
+            texts.labels[row.name] ?? row.name,
+            ...(symbol
+                ? [
+                      " ",
+                      element(
+                          "i",
+                          {},
+                          symbol,
+                          ...(index ? [element("sub", {textContent: index})] : []),
+                      ),
+                  ]
+                : []),
+        );
         text.title = title;
         const isNumber = row.slider !== null || row.name === "mixture";
-        text.addEventListener("input", () => this.change(row.name, isNumber ? typedNumber(text.value.trim()) : text.value.trim()));
+        text.addEventListener("input", () =>
+            this.change(row.name, isNumber ? typedNumber(text.value.trim()) : text.value.trim()),
+        );
         const made = element("div", {className}, label, text, ...proposed);
         this.fields[row.name] = {row: made, text};
         if (!row.slider) return made;
         const [min, max, step] = row.slider.map(String) as [string, string, string];
-        const slider = element("input", {type: "range", id: `slider-${row.name}`, min, max, step, title});
+        const slider = element("input", {
+            type: "range",
+            id: `slider-${row.name}`,
+            min,
+            max,
+            step,
+            title,
+        });
         slider.setAttribute("aria-label", `${texts.labels[row.name] ?? row.name}, ${row.name}`);
         slider.addEventListener("input", () => this.change(row.name, slider.value));
         made.append(slider);
@@ -127,27 +231,42 @@ export class Parameters {
     }
 
     private change(name: string, value: string): void {
-        // A preset with another unit of length or time needs a gravity; here the one in effect stays.
+        // A preset with another unit of length or time needs a gravity; here the one in effect
+        // stays.
         const {given} = this.lab;
-        const changesUnit = ["radius", "period", "speed"].includes(name) && given["preset"] && !given["gravity"];
-        const gravity: Record<string, string> = changesUnit ? {gravity: this.lab.effectiveValue("gravity")} : {};
+        const changesUnit =
+            ["radius", "period", "speed"].includes(name) && given["preset"] && !given["gravity"];
+        const gravity: Record<string, string> = changesUnit
+            ? {gravity: this.lab.effectiveValue("gravity")}
+            : {};
         // One friction coefficient replaces the two others.
-        this.lab.set({...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}), ...gravity, [name]: value});
+        this.lab.set({
+            ...(name === "mu" ? {mu_disc: "", mu_wall: ""} : {}),
+            ...gravity,
+            [name]: value,
+        });
     }
 
     private show(): void {
         const {lab, fields} = this;
         for (const [name, {row, text, slider}] of Object.entries(fields)) {
-            const value = lab.given[name] ?? "", holds = lab.effectiveValue(name), shown = shortened(holds.split(",")[0]!);
+            const value = lab.given[name] ?? "",
+                holds = lab.effectiveValue(name),
+                shown = shortened(holds.split(",")[0]!);
             const isChoice = text instanceof HTMLSelectElement;
             if (text instanceof HTMLInputElement) text.placeholder = localized(shown);
             const wanted = isChoice ? value || holds : value;
-            if (typedNumber(text.value.trim()) !== typedNumber(wanted)) text.value = isChoice ? wanted : localized(wanted); // unless it is being typed
+            if (typedNumber(text.value.trim()) !== typedNumber(wanted))
+                text.value = isChoice ? wanted : localized(wanted); // unless it is being typed
             if (slider) showOn(slider, value || shown);
             row.hidden = !main.includes(name) && value === "" && !applies(name, lab.configuration);
         }
-        for (const group of this.groups) group.hidden = [...group.querySelectorAll<HTMLElement>(".control")].every((row) => row.hidden);
-        this.spheres.checked = (lab.given["preset"] ?? lab.configuration["preset"]) === "experiment" &&
+        for (const group of this.groups)
+            group.hidden = [...group.querySelectorAll<HTMLElement>(".control")].every(
+                (row) => row.hidden,
+            );
+        this.spheres.checked =
+            (lab.given["preset"] ?? lab.configuration["preset"]) === "experiment" &&
             (lab.given["body"] ?? "sphere") === "sphere";
     }
 }

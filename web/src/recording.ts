@@ -12,12 +12,17 @@ const maxNumbers = 2e7; // limit of a recording, eight bytes each
 /** A frame as extended XYZ. */
 export function xyz(f: Float64Array): string {
     const discs = f[10]!;
-    const lines = [String(discs), "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:" +
-        `id:I:1 Time=${f[0]} pbc="F F F"`];
+    const lines = [
+        String(discs),
+        "Properties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:" +
+            `id:I:1 Time=${f[0]} pbc="F F F"`,
+    ];
     const sizes = new Map<number, number>();
     for (let i = 0; i < discs; ++i) {
-        const [x, y, , spin, vx, vy, radius] =
-            f.subarray(frameHead + frameDisc * i, frameHead + frameDisc * (i + 1));
+        const [x, y, , spin, vx, vy, radius] = f.subarray(
+            frameHead + frameDisc * i,
+            frameHead + frameDisc * (i + 1),
+        );
         if (!sizes.has(radius!)) sizes.set(radius!, sizes.size + 1);
         lines.push(`D${sizes.get(radius!)} ${x} ${y} 0 ${vx} ${vy} 0 ${spin} ${radius} ${i + 1}`);
     }
@@ -52,7 +57,11 @@ export class Recording {
 
     /** `canvas` returns the canvas to record. */
     constructor(private readonly canvas: () => HTMLCanvasElement | undefined) {
-        this.start = button(texts.record, () => (this.frames ? this.stop() : this.begin()), "record");
+        this.start = button(
+            texts.record,
+            () => (this.frames ? this.stop() : this.begin()),
+            "record",
+        );
         this.layOut();
     }
 
@@ -65,7 +74,8 @@ export class Recording {
         if (!this.frames) return;
         this.done = this.frames.all;
         this.frames = undefined;
-        if (this.recorder) this.recorder.stop(); // its onstop stores the movie
+        if (this.recorder)
+            this.recorder.stop(); // its onstop stores the movie
         else this.layOut();
     }
 
@@ -77,9 +87,13 @@ export class Recording {
         const type = movieTypes.find((each) => globalThis.MediaRecorder?.isTypeSupported(each));
         if (canvas && type) {
             const parts: Blob[] = [];
-            this.recorder = new MediaRecorder(canvas.captureStream(), {mimeType: type,
-                                                                    videoBitsPerSecond: 6e6});
-            this.recorder.ondataavailable = ({data}): void => { parts.push(data); };
+            this.recorder = new MediaRecorder(canvas.captureStream(), {
+                mimeType: type,
+                videoBitsPerSecond: 6e6,
+            });
+            this.recorder.ondataavailable = ({data}): void => {
+                parts.push(data);
+            };
             this.recorder.onstop = (): void => {
                 this.recorder = undefined;
                 this.movie = new Blob(parts, {type: type.split(";")[0]!});
@@ -95,12 +109,24 @@ export class Recording {
         this.start.setAttribute("aria-pressed", String(this.frames !== undefined));
         const buttons: HTMLElement[] = [];
         if (this.movie && !this.frames) {
-            const movie = this.movie, form = movie.type.split("/")[1]!;
-            buttons.push(button(fill(texts.movie, {form: movieNames[form]!}), () => save(`swirl.${form}`, {bytes: movie}), "save-movie"));
+            const movie = this.movie,
+                form = movie.type.split("/")[1]!;
+            buttons.push(
+                button(
+                    fill(texts.movie, {form: movieNames[form]!}),
+                    () => save(`swirl.${form}`, {bytes: movie}),
+                    "save-movie",
+                ),
+            );
         }
         if (this.done.length > 0 && !this.frames)
-            buttons.push(button(texts.positions, () => save("swirl.xyz", {bytes: positionsOf(this.done)}),
-                             "save-positions"));
+            buttons.push(
+                button(
+                    texts.positions,
+                    () => save("swirl.xyz", {bytes: positionsOf(this.done)}),
+                    "save-positions",
+                ),
+            );
         this.panel.replaceChildren(this.start, ...buttons);
     }
 }

@@ -1,6 +1,17 @@
 // Whole runs in the background, on all cores. Each worker makes one run at a time.
-import {UsageError, perRate, rates, type Crossing, type Estimate, type NextRuns, type Rate, type Rotation, type RunNumbers,
-        type SearchedNumbers, type SearchRules} from "./engine";
+import {
+    UsageError,
+    perRate,
+    rates,
+    type Crossing,
+    type Estimate,
+    type NextRuns,
+    type Rate,
+    type Rotation,
+    type RunNumbers,
+    type SearchedNumbers,
+    type SearchRules,
+} from "./engine";
 import type {MeanWithError} from "./estimates";
 import type {FromWorker, ToWorker} from "./messages";
 import {engineMessage} from "./texts";
@@ -22,8 +33,8 @@ export type SearchedRun = Pick<EvaluatedRun, "discs" | "periods"> & FinishedRun;
 export type Crossings = Record<Rate, Crossing>;
 export type Estimates = Record<Rate, MeanWithError>;
 
-/** Number of seeds of a point. A single run underestimates its error where the discs remember their arrangement for
- *  longer than a block of it; the scatter between seeds does not. */
+/** Number of seeds of a point. A single run underestimates its error where the discs remember their
+ *  arrangement for longer than a block of it; the scatter between seeds does not. */
 export const seedsPerPoint = 4;
 const maxSeeds = 12;
 
@@ -31,19 +42,34 @@ const maxSeeds = 12;
 export function seedsFrom(first = "1", count = seedsPerPoint): string[] {
     const whole = /^\d+$/.test(first || "1") ? BigInt(first || "1") : undefined;
     return Array.from({length: count}, (_, k) =>
-        whole === undefined ? first : String(BigInt.asUintN(64, whole + BigInt(k))));
+        whole === undefined ? first : String(BigInt.asUintN(64, whole + BigInt(k))),
+    );
 }
 
 /** Runs without a mean or an error are omitted. */
-function numbersOf(discs: number, periods: number, {mean, error, effective_samples}: EvaluatedRun["rotation"][Rate]): RunNumbers[] {
-    return mean === null || error === null ? [] : [[discs, mean, error, periods, effective_samples ?? 0]];
+function numbersOf(
+    discs: number,
+    periods: number,
+    {mean, error, effective_samples}: EvaluatedRun["rotation"][Rate],
+): RunNumbers[] {
+    return mean === null || error === null
+        ? []
+        : [[discs, mean, error, periods, effective_samples ?? 0]];
 }
 
-export const searchedNumbers = (made: SearchedRun[]): SearchedNumbers[] => made.map(({discs, periods, rotation}) => [
-    discs, periods, ...rates.flatMap((rate) => {
-        const {mean, error, effective_samples: samples}: Partial<EvaluatedRun["rotation"][Rate]> = rotation?.[rate] ?? {};
-        return [mean ?? NaN, error ?? NaN, samples ?? 0];
-    })]);
+export const searchedNumbers = (made: SearchedRun[]): SearchedNumbers[] =>
+    made.map(({discs, periods, rotation}) => [
+        discs,
+        periods,
+        ...rates.flatMap((rate) => {
+            const {
+                mean,
+                error,
+                effective_samples: samples,
+            }: Partial<EvaluatedRun["rotation"][Rate]> = rotation?.[rate] ?? {};
+            return [mean ?? NaN, error ?? NaN, samples ?? 0];
+        }),
+    ]);
 
 interface Task {
     message: ToWorker;
@@ -60,7 +86,10 @@ export class Runs {
     private readonly size: number;
 
     /** `begin` creates a worker that gets the engine. */
-    constructor(private readonly begin: () => Worker, cores = navigator.hardwareConcurrency || 1) {
+    constructor(
+        private readonly begin: () => Worker,
+        cores = navigator.hardwareConcurrency || 1,
+    ) {
         this.size = Math.max(1, Math.min(cores, maxWorkers));
     }
 
@@ -71,15 +100,23 @@ export class Runs {
         return {rotation: answer.collapsed ? undefined : answer.rotation};
     }
 
-    /** Runs that differ in their seeds only, in parallel or one after the other. A collapsed run is replaced by one with
-     *  the next seed. Undefined if too many collapse, or `isWanted` has become false. Rejects with UsageError. */
-    async replicates(given: Record<string, string>, periods: number,
-                     isWanted?: () => boolean): Promise<EvaluatedRun[] | undefined> {
-        const discs = Number(given["discs"]), all: EvaluatedRun[] = [], seeds = seedsFrom(given["seed"], maxSeeds);
+    /** Runs that differ in their seeds only, in parallel or one after the other. A collapsed run is
+     *  replaced by one with the next seed. Undefined if too many collapse, or `isWanted` has become
+     *  false. Rejects with UsageError. */
+    async replicates(
+        given: Record<string, string>,
+        periods: number,
+        isWanted?: () => boolean,
+    ): Promise<EvaluatedRun[] | undefined> {
+        const discs = Number(given["discs"]),
+            all: EvaluatedRun[] = [],
+            seeds = seedsFrom(given["seed"], maxSeeds);
         while (all.length < seedsPerPoint && seeds.length > 0) {
             if (isWanted && !isWanted()) return undefined;
             const next = seeds.splice(0, isWanted ? 1 : seedsPerPoint - all.length);
-            const finished = await Promise.all(next.map((seed) => this.run({...given, seed}, periods)));
+            const finished = await Promise.all(
+                next.map((seed) => this.run({...given, seed}, periods)),
+            );
             for (const [k, {rotation}] of finished.entries())
                 if (rotation) all.push({discs, periods, rotation, seed: next[k]!});
         }
@@ -88,14 +125,29 @@ export class Runs {
 
     /** N_c by each rotation rate. */
     crossings(runs: EvaluatedRun[]): Promise<Crossings> {
-        return this.evaluated(perRate((rate) => runs.flatMap(({discs, periods, rotation}) => numbersOf(discs, periods, rotation[rate]))));
+        return this.evaluated(
+            perRate((rate) =>
+                runs.flatMap(({discs, periods, rotation}) =>
+                    numbersOf(discs, periods, rotation[rate]),
+                ),
+            ),
+        );
     }
 
-    /** The means of runs with the same number of discs, and the errors between them, by the estimator of all programs: the runs
-     *  give no errors of their own. */
+    /** The means of runs with the same number of discs, and the errors between them, by the
+     *  estimator of all programs: the runs give no errors of their own. */
     async estimates(runs: EvaluatedRun[]): Promise<Estimates> {
-        const found = await this.evaluated(perRate((rate) => runs.map(
-            ({discs, periods, rotation}) => [discs, rotation[rate].mean ?? NaN, NaN, periods, 0])));
+        const found = await this.evaluated(
+            perRate((rate) =>
+                runs.map(({discs, periods, rotation}) => [
+                    discs,
+                    rotation[rate].mean ?? NaN,
+                    NaN,
+                    periods,
+                    0,
+                ]),
+            ),
+        );
         return perRate((rate) => {
             const [, mean, error] = found[rate].points[0]!;
             return {mean, error};
@@ -158,7 +210,8 @@ export class Runs {
 
     private next(): void {
         while (this.queue.length > 0 && this.idle.length > 0) {
-            const worker = this.idle.pop()!, task = this.queue.shift()!;
+            const worker = this.idle.pop()!,
+                task = this.queue.shift()!;
             this.workers.set(worker, task);
             worker.postMessage(task.message);
         }

@@ -5,7 +5,16 @@ import type {Contact} from "./contacts";
 import {frameDisc, frameHead, frameOrientation} from "./engine";
 import {drawLegend} from "./legend";
 import {drawMap, type MapLayer} from "./maps";
-import {drawContacts, drawEvent, drawForces, drawHeld, drawMarks, drawNext, drawSwirl, drawTurns} from "./marks";
+import {
+    drawContacts,
+    drawEvent,
+    drawForces,
+    drawHeld,
+    drawMarks,
+    drawNext,
+    drawSwirl,
+    drawTurns,
+} from "./marks";
 import {sectorColors} from "./paint";
 
 export type View = "lab" | "m";
@@ -52,18 +61,32 @@ const swirlInset = 6; // pixels of the page, from the edge to the arrow of the s
 const border = 20; // pixels of the page: for the arc outside the wall, and the marks on it
 
 /** Length units per pixel of the page, for an image of this width. */
-function unitsPerPixel(frame: Frame, look: {view: View; room: number; isSmall?: boolean}, width: number): number {
+function unitsPerPixel(
+    frame: Frame,
+    look: {view: View; room: number; isSmall?: boolean},
+    width: number,
+): number {
     const room = look.view === "lab" ? Math.max(look.room, Math.hypot(...frame.centre)) : 0;
-    return (frame.radius + room) / Math.max(0.5 * width - (look.isSmall ? 2 : Math.min(border, 0.09 * width)), 0.25 * width);
+    return (
+        (frame.radius + room) /
+        Math.max(0.5 * width - (look.isSmall ? 2 : Math.min(border, 0.09 * width)), 0.25 * width)
+    );
 }
 
 /** The point of the lab frame at these coordinates of the window. */
-export function pointedAt(canvas: HTMLCanvasElement, f: Float64Array, room: number, clientX: number,
-                          clientY: number): [number, number] {
+export function pointedAt(
+    canvas: HTMLCanvasElement,
+    f: Float64Array,
+    room: number,
+    clientX: number,
+    clientY: number,
+): [number, number] {
     const box = canvas.getBoundingClientRect();
     const scale = unitsPerPixel(head(f), {view: "lab", room}, box.width);
-    return [(clientX - box.left - box.width / 2) * scale,
-            (box.top + box.height / 2 - clientY) * scale];
+    return [
+        (clientX - box.left - box.width / 2) * scale,
+        (box.top + box.height / 2 - clientY) * scale,
+    ];
 }
 
 /** The disc at a point of the lab frame. */
@@ -81,7 +104,6 @@ function orientationOf(f: Float64Array, i: number): Orientation | undefined {
     return k < f.length ? [f[k]!, f[k + 1]!, f[k + 2]!, f[k + 3]!] : undefined;
 }
 
-
 export interface Palette {
     ink: string;
     paper: string;
@@ -91,21 +113,49 @@ export interface Palette {
     against: string;
 }
 const palettes: Record<"light" | "dark", Palette> = {
-    light: {ink: "#1d2328", paper: "#fbf9f6", floor: "#ffffff", quiet: "#6b737a", with: "#cc5c0a", against: "#24639e"},
-    dark: {ink: "#ebe8e3", paper: "#121517", floor: "#1d2226", quiet: "#98a1a8", with: "#f5a860", against: "#86bdf2"},
+    light: {
+        ink: "#1d2328",
+        paper: "#fbf9f6",
+        floor: "#ffffff",
+        quiet: "#6b737a",
+        with: "#cc5c0a",
+        against: "#24639e",
+    },
+    dark: {
+        ink: "#ebe8e3",
+        paper: "#121517",
+        floor: "#1d2226",
+        quiet: "#98a1a8",
+        with: "#f5a860",
+        against: "#86bdf2",
+    },
 };
 export const paletteOf = (isDark: boolean): Palette => palettes[isDark ? "dark" : "light"];
 
-/** From blue (against the swirl) to grey to orange (with the swirl); suited to colour-blind readers. */
+/** From blue (against the swirl) to grey to orange (with the swirl); suited to colour-blind
+ *  readers. */
 export function diverging(x: number): [number, number, number] {
     const t = Math.max(-1, Math.min(1, x));
     const from = t < 0 ? [36, 99, 158] : [204, 92, 10];
     const grey = [196, 198, 200];
-    return grey.map((g, k) => Math.round(g + Math.abs(t) * (from[k]! - g))) as [number, number, number];
+    return grey.map((g, k) => Math.round(g + Math.abs(t) * (from[k]! - g))) as [
+        number,
+        number,
+        number,
+    ];
 }
 
-export const idColors = ["#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#f0e442"];
-export const pinnedColor = "#d55e00", looseColor = "#56b4e9";
+export const idColors = [
+    "#0072b2",
+    "#e69f00",
+    "#009e73",
+    "#cc79a7",
+    "#56b4e9",
+    "#d55e00",
+    "#f0e442",
+];
+export const pinnedColor = "#d55e00",
+    looseColor = "#56b4e9";
 
 function color(f: Float64Array, k: number, i: number, {coloring, sectors}: DrawOptions): string {
     if (coloring === "sector") return sectorColors[sectors[i] ?? 0]!;
@@ -120,7 +170,8 @@ const minBallRadius = 6; // pixels; the pattern of smaller spheres is invisible
 
 /** Pixels of the canvas per pixel of the page; sets the canvas's size. */
 function fit(canvas: HTMLCanvasElement): number {
-    const ratio = window.devicePixelRatio || 1, size = Math.round(canvas.clientWidth * ratio);
+    const ratio = window.devicePixelRatio || 1,
+        size = Math.round(canvas.clientWidth * ratio);
     if (canvas.width !== size) canvas.width = canvas.height = size;
     return ratio;
 }
@@ -128,14 +179,19 @@ function fit(canvas: HTMLCanvasElement): number {
 export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptions): void {
     const context = canvas.getContext("2d");
     if (!context) return;
-    const ratio = fit(canvas), size = canvas.width, frame = head(f), palette = paletteOf(look.dark);
-    const scale = ratio / unitsPerPixel(frame, look, size / ratio), hair = 1.2 * ratio / scale;
+    const ratio = fit(canvas),
+        size = canvas.width,
+        frame = head(f),
+        palette = paletteOf(look.dark);
+    const scale = ratio / unitsPerPixel(frame, look, size / ratio),
+        hair = (1.2 * ratio) / scale;
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = palette.paper; // so that a movie has it, too
     context.fillRect(0, 0, size, size);
     context.setTransform(scale, 0, 0, -scale, size / 2, size / 2);
     const frameAngle = look.view === "m" ? Math.atan2(frame.down[0], -frame.down[1]) : 0;
-    if (look.view === "lab" && !look.isSmall) drawSwirl(context, (0.5 * size / ratio - swirlInset) * ratio / scale, palette, hair);
+    if (look.view === "lab" && !look.isSmall)
+        drawSwirl(context, (((0.5 * size) / ratio - swirlInset) * ratio) / scale, palette, hair);
     drawContainer(context, frame, look, palette, frameAngle, hair);
     if (look.map) drawMap(context, look.map, frame.radius, look.dark);
     if (look.view === "lab" && !look.isSmall) {
@@ -148,7 +204,8 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
     else drawDiscs(context, f, frame, look, frameAngle, scale, hair);
     if (look.coloring === "contacts") drawContacts(context, f, frame, look, palette, hair);
     if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
-    if (look.held !== undefined && look.held < frame.discs) drawHeld(context, f, frame, look, palette, look.held, hair);
+    if (look.held !== undefined && look.held < frame.discs)
+        drawHeld(context, f, frame, look, palette, look.held, hair);
     drawNext(context, f, frame, look, hair);
     drawEvent(context, f, frame, look, hair);
     if (look.isSmall) return;
@@ -158,8 +215,14 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
 }
 
 /** The container and its wall. In the M-frame the wall moves, as twelve marks on it show. */
-function drawContainer(context: CanvasRenderingContext2D, frame: Frame, {view, isSmall}: DrawOptions, palette: Palette,
-                       frameAngle: number, hair: number): void {
+function drawContainer(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    {view, isSmall}: DrawOptions,
+    palette: Palette,
+    frameAngle: number,
+    hair: number,
+): void {
     const [cx, cy] = shown(frame, view, ...frame.centre);
     context.fillStyle = palette.floor;
     context.strokeStyle = palette.ink;
@@ -170,7 +233,8 @@ function drawContainer(context: CanvasRenderingContext2D, frame: Frame, {view, i
     context.stroke();
     if (view === "lab" || isSmall) return;
     for (let k = 0; k < 12; ++k) {
-        const angle = k * Math.PI / 6 - frameAngle, [c, s] = [Math.cos(angle), Math.sin(angle)];
+        const angle = (k * Math.PI) / 6 - frameAngle,
+            [c, s] = [Math.cos(angle), Math.sin(angle)];
         const [from, to] = [frame.radius + 2.6 * hair, frame.radius + (k === 0 ? 11 : 7) * hair];
         context.lineWidth = (k === 0 ? 5 : 2) * hair;
         context.beginPath();
@@ -181,7 +245,12 @@ function drawContainer(context: CanvasRenderingContext2D, frame: Frame, {view, i
 }
 
 /** The path of the container's centre, with an arrow in its direction. */
-function drawPath(context: CanvasRenderingContext2D, frame: Frame, palette: Palette, hair: number): void {
+function drawPath(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    palette: Palette,
+    hair: number,
+): void {
     const amplitude = Math.hypot(...frame.centre);
     if (!(amplitude > 3 * hair)) return;
     context.strokeStyle = context.fillStyle = palette.quiet;
@@ -193,12 +262,21 @@ function drawPath(context: CanvasRenderingContext2D, frame: Frame, palette: Pale
     context.setLineDash([]);
 }
 
-function drawDiscs(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
-                   frameAngle: number, scale: number, hair: number): void {
+function drawDiscs(
+    context: CanvasRenderingContext2D,
+    f: Float64Array,
+    frame: Frame,
+    look: DrawOptions,
+    frameAngle: number,
+    scale: number,
+    hair: number,
+): void {
     for (let i = 0; i < frame.discs; ++i) {
         const k = frameHead + frameDisc * i;
         const [x, y] = shown(frame, look.view, f[k]!, f[k + 1]!);
-        const r = f[k + 6]!, angle = f[k + 2]! - frameAngle, orientation = orientationOf(f, i);
+        const r = f[k + 6]!,
+            angle = f[k + 2]! - frameAngle,
+            orientation = orientationOf(f, i);
         context.fillStyle = color(f, k, i, look);
         if (orientation && r * scale > minBallRadius) {
             drawBall(context, x, y, r, inRotatedAxes(frameAngle, orientation));
@@ -220,15 +298,27 @@ function drawDiscs(context: CanvasRenderingContext2D, f: Float64Array, frame: Fr
 }
 
 /** On a map, discs are outlines; the pinned ones are marked. */
-function drawOutlines(context: CanvasRenderingContext2D, f: Float64Array, frame: Frame, look: DrawOptions,
-                      palette: Palette, hair: number): void {
+function drawOutlines(
+    context: CanvasRenderingContext2D,
+    f: Float64Array,
+    frame: Frame,
+    look: DrawOptions,
+    palette: Palette,
+    hair: number,
+): void {
     for (let i = 0; i < frame.discs; ++i) {
-        const k = frameHead + frameDisc * i, pinned = f[k + 7] === 1;
+        const k = frameHead + frameDisc * i,
+            pinned = f[k + 7] === 1;
         context.strokeStyle = pinned ? pinnedColor : palette.ink;
         context.globalAlpha = pinned ? 1 : 0.35;
         context.lineWidth = (pinned ? 3 : 1) * hair;
         context.beginPath();
-        context.arc(...shown(frame, look.view, f[k]!, f[k + 1]!), f[k + 6]! - 0.5 * context.lineWidth, 0, 2 * Math.PI);
+        context.arc(
+            ...shown(frame, look.view, f[k]!, f[k + 1]!),
+            f[k + 6]! - 0.5 * context.lineWidth,
+            0,
+            2 * Math.PI,
+        );
         context.stroke();
     }
     context.globalAlpha = 1;
@@ -242,18 +332,26 @@ export function discOf(f: Float64Array, i: number): {x: number; y: number; radiu
 
 /** The frames for the trails, oldest first: those at most `longest` before `now`. A fixed number of
  *  frames would cover the container if each takes much of a period. */
-export function recent(history: Float64Array[], now: Float64Array, longest: number): Float64Array[] {
+export function recent(
+    history: Float64Array[],
+    now: Float64Array,
+    longest: number,
+): Float64Array[] {
     return history.filter((f) => f[0]! >= now[0]! - longest);
 }
 
-function drawTrails(context: CanvasRenderingContext2D, f: Float64Array, look: DrawOptions,
-                    hair: number): void {
+function drawTrails(
+    context: CanvasRenderingContext2D,
+    f: Float64Array,
+    look: DrawOptions,
+    hair: number,
+): void {
     const frames = [...look.trails, f];
     for (let t = 1; t < frames.length; ++t) {
         const [a, b] = [frames[t - 1]!, frames[t]!];
         if (a.length !== b.length) continue;
         const [before, after] = [head(a), head(b)];
-        context.globalAlpha = 0.6 * t / frames.length;
+        context.globalAlpha = (0.6 * t) / frames.length;
         context.lineWidth = hair;
         for (let i = 0; i < after.discs; ++i) {
             const k = frameHead + frameDisc * i;

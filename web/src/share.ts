@@ -13,13 +13,17 @@ const copyButton = (): HTMLButtonElement => byId("copy") as HTMLButtonElement;
 
 /** The address of the page with the given parameters, in the language that was chosen. */
 export function addressOf(given: Record<string, string>): string {
-    const query = new URLSearchParams({...given, ...pageEntries}), text = query.toString();
+    const query = new URLSearchParams({...given, ...pageEntries}),
+        text = query.toString();
     return text ? `?${text}` : location.pathname;
 }
 
-/** The containers side by side, as a picture with the address below it; that of a local file has no folders. */
+/** The containers side by side, as a picture with the address below it; that of a local file has no
+ *  folders. */
 function pictureOf(address: string): string {
-    const shown = [...byId("views").querySelectorAll("canvas")], canvas = element("canvas"), row = 22 * (devicePixelRatio || 1);
+    const shown = [...byId("views").querySelectorAll("canvas")],
+        canvas = element("canvas"),
+        row = 22 * (devicePixelRatio || 1);
     canvas.width = shown.reduce((sum, {width}) => sum + width, 0);
     canvas.height = Math.max(...shown.map(({height}) => height)) + row;
     const context = canvas.getContext("2d")!;
@@ -40,20 +44,29 @@ function pictureOf(address: string): string {
 export function showCode(link: string): void {
     const content = element("div", {id: "qr"});
     try {
-        const {size, data} = encode(link, {ecc: "L", border: 4}), scale = Math.max(2, Math.floor(320 / size));
-        const canvas = element("canvas", {width: scale * size, height: scale * size}), context = canvas.getContext("2d")!;
+        const {size, data} = encode(link, {ecc: "L", border: 4}),
+            scale = Math.max(2, Math.floor(320 / size));
+        const canvas = element("canvas", {width: scale * size, height: scale * size}),
+            context = canvas.getContext("2d")!;
         canvas.setAttribute("role", "img");
         canvas.setAttribute("aria-label", link);
         context.fillStyle = "#fff";
         context.fillRect(0, 0, canvas.width, canvas.height);
         context.fillStyle = "#000";
-        for (const [y, row] of data.entries()) for (const [x, isDark] of row.entries())
-            if (isDark) context.fillRect(scale * x, scale * y, scale, scale);
+        for (const [y, row] of data.entries())
+            for (const [x, isDark] of row.entries())
+                if (isDark) context.fillRect(scale * x, scale * y, scale, scale);
         content.append(canvas);
     } catch {
         content.append(element("p", {textContent: texts.qrTooLong}));
     }
-    const dialog = element("dialog", {}, content, element("code", {textContent: link}), button(texts.close, () => dialog.close()));
+    const dialog = element(
+        "dialog",
+        {},
+        content,
+        element("code", {textContent: link}),
+        button(texts.close, () => dialog.close()),
+    );
     dialog.setAttribute("aria-label", texts.qr);
     dialog.addEventListener("close", () => dialog.remove());
     document.body.append(dialog);
@@ -63,24 +76,57 @@ export function showCode(link: string): void {
 export class Share {
     private readonly recording: Recording;
 
-    constructor(private readonly lab: Laboratory, dish: Dish) {
+    constructor(
+        private readonly lab: Laboratory,
+        dish: Dish,
+    ) {
         this.recording = new Recording(() => dish.canvas);
         dish.laidOut = (): void => this.recording.stop();
         const address = (): string => new URL(addressOf(lab.given), location.href).href;
-        const link = button(texts.link, () => void this.copy(address(), link, texts.link), "copy-link");
+        const link = button(
+            texts.link,
+            () => void this.copy(address(), link, texts.link),
+            "copy-link",
+        );
         // The reader may close the dialog of the system, which rejects.
-        const send = button(texts.send, () => void navigator.share({title: document.title, url: address()}).catch(() => {}), "send-link");
+        const send = button(
+            texts.send,
+            () => void navigator.share({title: document.title, url: address()}).catch(() => {}),
+            "send-link",
+        );
         link.hidden = location.protocol === "about:"; // a frame in a notebook has no address
         const code = button(texts.qr, () => showCode(address() + location.hash), "show-qr");
         code.hidden = link.hidden;
         send.hidden = link.hidden || !("share" in navigator);
-        const menu = element("details", {},
-            element("summary", {title: texts.share}, icon("share"), element("span", {textContent: texts.share})),
-            element("div", {className: "menu"}, link, send, code,
-                button(texts.image, () => save("swirl.png", {href: pictureOf(address().replace(/^file:.*\//, ""))}), "save-image"),
-                button(texts.table, () => save("rotation.csv", {text: tableOf(lab.averages), type: "text/csv"}), "save-table"),
+        const menu = element(
+            "details",
+            {},
+            element(
+                "summary",
+                {title: texts.share},
+                icon("share"),
+                element("span", {textContent: texts.share}),
+            ),
+            element(
+                "div",
+                {className: "menu"},
+                link,
+                send,
+                code,
+                button(
+                    texts.image,
+                    () => save("swirl.png", {href: pictureOf(address().replace(/^file:.*\//, ""))}),
+                    "save-image",
+                ),
+                button(
+                    texts.table,
+                    () => save("rotation.csv", {text: tableOf(lab.averages), type: "text/csv"}),
+                    "save-table",
+                ),
                 button(texts.result, () => lab.send({kind: "result"}), "save-result"),
-                this.recording.panel));
+                this.recording.panel,
+            ),
+        );
         byId("share").replaceChildren(menu);
         menu.addEventListener("keydown", (event) => {
             if (event.key !== "Escape") return;
@@ -90,8 +136,10 @@ export class Share {
         document.addEventListener("pointerdown", (event) => {
             if (!menu.contains(event.target as Node)) menu.open = false;
         });
-        copyButton().addEventListener("click", () =>
-            void this.copy(byId("command").textContent ?? "", copyButton(), texts.copy));
+        copyButton().addEventListener(
+            "click",
+            () => void this.copy(byId("command").textContent ?? "", copyButton(), texts.copy),
+        );
         lab.on("begin", () => {
             this.recording.stop();
             for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
@@ -105,8 +153,12 @@ export class Share {
             byId("state-hash").textContent = frame.hash;
             this.offerCommand(frame.command);
         });
-        lab.on("result", (text) => save("result.json", {
-            text: JSON.stringify(JSON.parse(text), null, 2) + "\n", type: "application/json"}));
+        lab.on("result", (text) =>
+            save("result.json", {
+                text: JSON.stringify(JSON.parse(text), null, 2) + "\n",
+                type: "application/json",
+            }),
+        );
         this.offerCommand();
     }
 
@@ -118,7 +170,9 @@ export class Share {
             return;
         }
         from.textContent = texts.copied;
-        setTimeout(() => { from.textContent = label; }, 2000);
+        setTimeout(() => {
+            from.textContent = label;
+        }, 2000);
     }
 
     /** Without a running simulation there is no command. */

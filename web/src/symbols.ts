@@ -2,16 +2,25 @@
 
 /** As in the paper. */
 export const symbols = {
-    rotation: "ϖ/Ω", rotationM: "ϖ_M/Ω", theta: "θ", discs: "N", friction: "μ", crossing: "N_c",
-    // Points: the centre of the path, the centre of the container, the point of the wall farthest from S.
-    swirl: "S", container: "C", farthest: "M",
+    rotation: "ϖ/Ω",
+    rotationM: "ϖ_M/Ω",
+    theta: "θ",
+    discs: "N",
+    friction: "μ",
+    crossing: "N_c",
+    // Points: the centre of the path, the centre of the container, the point of the wall farthest
+    // from S.
+    swirl: "S",
+    container: "C",
+    farthest: "M",
 };
 
 /** Command lines, which are the same in every language. */
 export const commands = {
     run: (options: string): string => `./swirl run ${options}`,
     crossing: (options: string): string => `./swirl crossing ${options}`,
-    sweep: (options: string, folder: string): string => `./swirl sweep ${options} --out ${folder} && ./swirl collect ${folder}`,
+    sweep: (options: string, folder: string): string =>
+        `./swirl sweep ${options} --out ${folder} && ./swirl collect ${folder}`,
 };
 
 /** A page of the documentation in the folder of the sources. */
@@ -20,10 +29,19 @@ export const documentIn = (page: string): string => `docs/${page}.md`;
 /** The first line of a checkpoint begins with it (src/swirl/io/checkpoint.hpp). */
 export const checkpointLine = "swirl checkpoint ";
 
-/** A message with the names of fields instead of options; within a sentence they begin with a small letter if
- *  `isEnglish`. */
-export const labelled = (message: string, labels: Record<string, string>, isEnglish = true): string =>
+/** A message with the names of fields instead of options; within a sentence they begin with a small
+ *  letter if `isEnglish`. */
+export const labelled = (
+    message: string,
+    labels: Record<string, string>,
+    isEnglish = true,
+): string =>
     message.replace(/--([a-z-]+)/g, (option, name: string, at: number) => {
-        const label = labels[name.replaceAll("-", "_")], begins = at === 0 || message[at - 1] === "\n";
-        return !label ? option : begins || !isEnglish ? label : label[0]!.toLowerCase() + label.slice(1);
+        const label = labels[name.replaceAll("-", "_")],
+            begins = at === 0 || message[at - 1] === "\n";
+        return !label
+            ? option
+            : begins || !isEnglish
+              ? label
+              : label[0]!.toLowerCase() + label.slice(1);
     });

@@ -21,8 +21,11 @@ export interface Finding {
 /** `turns` in the `periods` so far count while there is no complete period. */
 export function findingOf(rotation: Rotation | undefined, turns: number, periods: number): Finding {
     const of = (mean: number | null, error: number | null = null): Finding => ({
-        mean, error, direction: mean ? (mean > 0 ? "with" : "against") : undefined,
-        isFirm: mean !== null && error !== null && Math.abs(mean) > intervalOf(error)});
+        mean,
+        error,
+        direction: mean ? (mean > 0 ? "with" : "against") : undefined,
+        isFirm: mean !== null && error !== null && Math.abs(mean) > intervalOf(error),
+    });
     if (rotation) {
         const {mean, error} = liveEstimate(rotation);
         if (mean !== null && rotation.mean_by_time.blocks > 0) return of(mean, error);
@@ -40,11 +43,16 @@ export function rotationText({mean, error}: Finding): string {
     return mean !== null && error === null ? signed(mean, 2) : withError(mean, error, texts.notYet);
 }
 
-/** The text below a container: its rotation, and with `cause` how well the cluster grips the wall. */
+/** The text below a container: its rotation, and with `cause` how well the cluster grips the wall.
+ *  */
 export const captionOf = (name: string, finding: Finding, cause?: Cause): string =>
-    (finding.mean === null ? name : fill(texts.comparedResult, {name, rotation: rotationText(finding)})) + (cause && cause.slip !== null ? `\n${fill(texts.slip, {slip: signed(cause.slip, 2)})}` : "");
+    (finding.mean === null
+        ? name
+        : fill(texts.comparedResult, {name, rotation: rotationText(finding)})) +
+    (cause && cause.slip !== null ? `\n${fill(texts.slip, {slip: signed(cause.slip, 2)})}` : "");
 
-const gaugeFrom = -0.4, gaugeTo = 1.1; // ϖ/Ω; clusters without wall friction rotate at 1
+const gaugeFrom = -0.4,
+    gaugeTo = 1.1; // ϖ/Ω; clusters without wall friction rotate at 1
 /** Square roots: counterrotation of some hundredths is visible, too. */
 const root = (x: number): number => Math.sign(x) * Math.sqrt(Math.abs(x));
 const position = (x: number): number =>
@@ -70,7 +78,12 @@ export class Verdict {
         this.gauge.replaceChildren(
             element("div", {className: "sides"}, side("against"), side("with")),
             element("div", {className: "track"}, this.band, this.needle),
-            element("div", {className: "marks"}, ...[-0.3, -0.1, 0, 0.1, 0.3, 1].map((at) => mark(at, signed(at, at % 1 ? 1 : 0)))));
+            element(
+                "div",
+                {className: "marks"},
+                ...[-0.3, -0.1, 0, 0.1, 0.3, 1].map((at) => mark(at, signed(at, at % 1 ? 1 : 0))),
+            ),
+        );
         this.gauge.style.setProperty("--zero", percent(position(0)));
         this.gauge.setAttribute("role", "meter");
         this.gauge.setAttribute("aria-label", symbols.rotation);
@@ -91,7 +104,8 @@ export class Verdict {
     }
 
     get finding(): Finding {
-        const {lab} = this, {last} = lab;
+        const {lab} = this,
+            {last} = lab;
         const periods = last ? last.frame[1]! + last.frame[2]! / lab.value("period") : 0;
         return findingOf(lab.averages, last?.turns[0] ?? 0, periods);
     }
@@ -101,27 +115,46 @@ export class Verdict {
         byId("numbers").replaceChildren();
         const discs = Number(this.lab.given["discs"]);
         // Many discs, or discs close to the densest packing, take seconds.
-        this.say(!this.lab.last && discs > 0
-            ? fill(texts.placing, {particles: this.lab.counted(discs, this.lab.given)}) : "…");
+        this.say(
+            !this.lab.last && discs > 0
+                ? fill(texts.placing, {particles: this.lab.counted(discs, this.lab.given)})
+                : "…",
+        );
     }
 
     private show(): void {
-        const {lab, finding} = this, n = lab.last?.frame[10] ?? 0, particles = lab.counted(n);
+        const {lab, finding} = this,
+            n = lab.last?.frame[10] ?? 0,
+            particles = lab.counted(n);
         this.drawGauge(finding);
         this.showNumbers();
-        if (lab.isByHand) return this.say(fill(texts.byHandHeadline, {turns: signed(lab.last?.turns[0] ?? 0, 2)}));
+        if (lab.isByHand)
+            return this.say(
+                fill(texts.byHandHeadline, {turns: signed(lab.last?.turns[0] ?? 0, 2)}),
+            );
         const {direction, isFirm, error} = finding;
         if (!direction) return this.say(fill(texts.undecided, {particles}));
         const strong = (words: Record<Direction, string>, way: Direction): HTMLElement =>
             element("strong", {textContent: words[way], className: way});
-        const other = this.other(), beside = other?.finding.direction;
+        const other = this.other(),
+            beside = other?.finding.direction;
         // Both in one sentence, if only their numbers differ, and not from the warm-up.
-        if (other?.hasAverages && beside && (lab.averages?.mean_by_time.blocks ?? 0) > 0 && settingOf(other.given) === settingOf(lab.given)) {
-            return this.write(fill(texts.both, {few: lab.counted(other.particles), many: n}),
-                              {one: strong(texts.ways, beside), other: strong(texts.ways, direction)});
+        if (
+            other?.hasAverages &&
+            beside &&
+            (lab.averages?.mean_by_time.blocks ?? 0) > 0 &&
+            settingOf(other.given) === settingOf(lab.given)
+        ) {
+            return this.write(fill(texts.both, {few: lab.counted(other.particles), many: n}), {
+                one: strong(texts.ways, beside),
+                other: strong(texts.ways, direction),
+            });
         }
-        const words = isFirm ? fill(texts.verdict, {n, particles})
-            : error !== null ? fill(texts.nearZero, {particles}) : fill(texts.soFar, {particles});
+        const words = isFirm
+            ? fill(texts.verdict, {n, particles})
+            : error !== null
+              ? fill(texts.nearZero, {particles})
+              : fill(texts.soFar, {particles});
         this.write(words, {direction: strong(texts.sides, direction)});
         byId("verdict").classList.toggle("firm", isFirm);
     }
@@ -142,36 +175,70 @@ export class Verdict {
         this.gauge.setAttribute("aria-valuenow", String(mean ?? 0));
         if (mean === null) return;
         this.needle.style.left = percent(position(mean));
-        const [from, to] = [-1, 1].map((side) => position(mean + side * intervalOf(error ?? 0))) as [number, number];
+        const [from, to] = [-1, 1].map((side) =>
+            position(mean + side * intervalOf(error ?? 0)),
+        ) as [number, number];
         this.band.style.left = percent(from);
         this.band.style.width = percent(to - from);
         this.band.classList.toggle("unknown", error === null);
     }
 
     private showNumbers(): void {
-        const {lab} = this, {last, averages} = lab;
+        const {lab} = this,
+            {last, averages} = lab;
         if (!last) return;
-        const [turns, rigid] = last.turns, time = last.frame[0]!;
+        const [turns, rigid] = last.turns,
+            time = last.frame[0]!;
         const differ = Math.abs(turns - rigid) > Math.max(0.1, 0.15 * Math.abs(turns));
         const pairs: [string, string, string, string][] = [
-            [symbols.rotation, rotationText(this.finding),
-             texts.rotationHelp, "rotation"],
-            [texts.turned, fill(texts.turns, {turns: signed(turns, 2)}), texts.turnedHelp, "turned"],
-            [texts.periods, signed(time / lab.value("period"), 1), texts.periodsHelp, "period-count"],
+            [symbols.rotation, rotationText(this.finding), texts.rotationHelp, "rotation"],
+            [
+                texts.turned,
+                fill(texts.turns, {turns: signed(turns, 2)}),
+                texts.turnedHelp,
+                "turned",
+            ],
+            [
+                texts.periods,
+                signed(time / lab.value("period"), 1),
+                texts.periodsHelp,
+                "period-count",
+            ],
         ];
-        if (lab.isByHand) pairs.splice(0, 1), pairs.splice(1, 1); // no period, so no averages
-        const warmup = averages && averages.mean_by_time.blocks === 0 && !lab.isByHand ? fill(texts.warmup, {periods: averages.warmup}) : "";
+        if (lab.isByHand) (pairs.splice(0, 1), pairs.splice(1, 1)); // no period, so no averages
+        const warmup =
+            averages && averages.mean_by_time.blocks === 0 && !lab.isByHand
+                ? fill(texts.warmup, {periods: averages.warmup})
+                : "";
         byId("numbers").replaceChildren(
-            element("dl", {id: "estimates"}, ...pairs.map(([name, value, title, id]) => element("div", {title},
-                element("dt", {textContent: name}), element("dd", {id, textContent: value})))),
-            element("p", {id: "note", textContent: warmup || (differ ? fill(texts.differ, {rigid: signed(rigid, 2)}) : "")}),
-            element("p", {id: "caution", textContent: this.caution()}));
+            element(
+                "dl",
+                {id: "estimates"},
+                ...pairs.map(([name, value, title, id]) =>
+                    element(
+                        "div",
+                        {title},
+                        element("dt", {textContent: name}),
+                        element("dd", {id, textContent: value}),
+                    ),
+                ),
+            ),
+            element("p", {
+                id: "note",
+                textContent:
+                    warmup || (differ ? fill(texts.differ, {rigid: signed(rigid, 2)}) : ""),
+            }),
+            element("p", {id: "caution", textContent: this.caution()}),
+        );
     }
 
     /** A warning about the averages; empty if there is none. */
     private caution(): string {
-        const {lab} = this, energyGrows = lab.conservesEnergy() && lab.value("amplitude") > 0 &&
-            lab.configuration["path"] !== "circle";
+        const {lab} = this,
+            energyGrows =
+                lab.conservesEnergy() &&
+                lab.value("amplitude") > 0 &&
+                lab.configuration["path"] !== "circle";
         return energyGrows && !lab.isByHand ? texts.grows : "";
     }
 }

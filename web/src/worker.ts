@@ -25,8 +25,14 @@ const send = (message: FromWorker): void => postMessage(message);
 
 function reject(error: unknown): void {
     engine = undefined;
-    send({kind: "rejected", run: runNumber, message: error instanceof UsageError ? error.message :
-        fill(workerTexts.stopped, {error: String(error)})});
+    send({
+        kind: "rejected",
+        run: runNumber,
+        message:
+            error instanceof UsageError
+                ? error.message
+                : fill(workerTexts.stopped, {error: String(error)}),
+    });
 }
 
 /** Throws if the command line would end the run with an error. */
@@ -37,8 +43,15 @@ function requireNoProblem(simulation: Engine, atTheEnd: boolean): void {
 
 function show(single = false): void {
     if (!engine) return;
-    const frame: Frame = {kind: "frame", run: runNumber, frame: engine.frame(now), turns: engine.turns(), events: engine.events,
-                          hash: engine.stateHash, command: engine.command()};
+    const frame: Frame = {
+        kind: "frame",
+        run: runNumber,
+        frame: engine.frame(now),
+        turns: engine.turns(),
+        events: engine.events,
+        hash: engine.stateHash,
+        command: engine.command(),
+    };
     if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
     if (single || performance.now() - lastAverages > averagesInterval) {
         frame.rotation = engine.rotation();
@@ -52,7 +65,8 @@ function show(single = false): void {
 /** Starts a simulation. Throws UsageError for parameters that are not valid. */
 function startSimulation(module: WebAssembly.Module, given: Record<string, string>): Engine {
     const discs = given["discs"] ?? "";
-    if (Number(discs) > maxDiscs) throw new UsageError(fill(workerTexts.tooMany, {discs, most: maxDiscs}));
+    if (Number(discs) > maxDiscs)
+        throw new UsageError(fill(workerTexts.tooMany, {discs, most: maxDiscs}));
     const simulation = new Engine(module);
     simulation.begin(given);
     return simulation;
@@ -66,7 +80,13 @@ function run(simulation: Engine, events: number): void {
         requireNoProblem(simulation, false);
         if (performance.now() - reported < averagesInterval) continue;
         reported = performance.now();
-        send({kind: "progress", run: runNumber, unit: "events", done: Math.min(done + eventsPerBatch, events), all: events});
+        send({
+            kind: "progress",
+            run: runNumber,
+            unit: "events",
+            done: Math.min(done + eventsPerBatch, events),
+            all: events,
+        });
     }
     requireNoProblem(simulation, true);
 }
@@ -100,8 +120,11 @@ function advance(simulation: Engine, target: number): boolean {
 function tick(periods: number, strobe = false): void {
     if (!engine) return;
     const periodEnd = (Math.floor(now / period + 1e-9) + 1) * period;
-    const target = Math.min(now + periods * period, change || strobe ? periodEnd : Infinity,
-                            toFit ? Math.max(period / 3, now) : Infinity);
+    const target = Math.min(
+        now + periods * period,
+        change || strobe ? periodEnd : Infinity,
+        toFit ? Math.max(period / 3, now) : Infinity,
+    );
     const arrived = advance(engine, target);
     const reached = arrived ? target : Math.min(engine.time, target);
     now = Math.max(now, reached);
@@ -120,7 +143,13 @@ function skip(periods: number): void {
         now += period;
         if (performance.now() - reported < averagesInterval) continue;
         reported = performance.now();
-        send({kind: "progress", run: runNumber, unit: "periods", done: Math.round(now / period) - begun, all: periods});
+        send({
+            kind: "progress",
+            run: runNumber,
+            unit: "periods",
+            done: Math.round(now / period) - begun,
+            all: periods,
+        });
     }
     lastAverages = -Infinity;
     show();
@@ -133,7 +162,14 @@ function requestChange(given: Record<string, string>): void {
     const keeps = engine.keepsDiscs(given);
     if (keeps === "later") change = given;
     else if (keeps === "now") applyChange(given);
-    else send({kind: "changed", run: runNumber, kept: false, missing: 0, configuration: engine.configuration()});
+    else
+        send({
+            kind: "changed",
+            run: runNumber,
+            kept: false,
+            missing: 0,
+            configuration: engine.configuration(),
+        });
 }
 
 const triesToFit = 12; // four periods
@@ -142,15 +178,22 @@ const triesToFit = 12; // four periods
 function applyChange(given: Record<string, string>, tries = triesToFit): void {
     if (!engine) return;
     change = undefined;
-    const missing = engine.change(now, given), configuration = engine.configuration();
+    const missing = engine.change(now, given),
+        configuration = engine.configuration();
     if (missing !== undefined) {
         now = 0;
         period = Number(configuration["period"]);
     }
     toFit = missing && tries > 0 ? {given, tries: tries - 1} : undefined;
-    // If some discs still have no free position after some periods, a new simulation places all discs.
-    send({kind: "changed", run: runNumber, kept: missing === 0 || toFit !== undefined,
-          missing: missing ?? 0, configuration});
+    // If some discs still have no free position after some periods, a new simulation places all
+    // discs.
+    send({
+        kind: "changed",
+        run: runNumber,
+        kept: missing === 0 || toFit !== undefined,
+        missing: missing ?? 0,
+        configuration,
+    });
     show();
 }
 
@@ -181,16 +224,24 @@ function maps(): void {
     if (!engine) return;
     engine.report();
     const of = (column: string): Float64Array => engine!.column(column);
-    send({kind: "maps", density: of("density//by_time"), spin: engine.spinMap(),
-         flow: {x: of("flow//x"), y: of("flow//y"), ux: of("flow//u_x"), uy: of("flow//u_y")},
-         profile: {theta: of("profile//theta"), varpi: of("profile//varpi_m"),
-                   wall: of("profile//wall")}});
+    send({
+        kind: "maps",
+        density: of("density//by_time"),
+        spin: engine.spinMap(),
+        flow: {x: of("flow//x"), y: of("flow//y"), ux: of("flow//u_x"), uy: of("flow//u_y")},
+        profile: {
+            theta: of("profile//theta"),
+            varpi: of("profile//varpi_m"),
+            wall: of("profile//wall"),
+        },
+    });
 }
 
 /** Runs a point of the study. The worker must not get other messages meanwhile. */
 function point(given: Record<string, string>, periods: number): void {
     if (!module) return;
-    const simulation = startSimulation(module, given), configuration = simulation.configuration();
+    const simulation = startSimulation(module, given),
+        configuration = simulation.configuration();
     const end = (periods + simulation.rotation().warmup) * Number(configuration["period"]);
     while (!simulation.advanceTo(end, eventsPerBatch) && !simulation.problem(false));
     const collapsed = simulation.problem(true) !== "";
@@ -205,10 +256,16 @@ function repeat(given: Record<string, string>, events: number): void {
     send({kind: "result", text: simulation.result()});
 }
 
-const handlers: {[Kind in ToWorker["kind"]]: (message: Extract<ToWorker, {kind: Kind}>) => unknown} = {
+const handlers: {
+    [Kind in ToWorker["kind"]]: (message: Extract<ToWorker, {kind: Kind}>) => unknown;
+} = {
     engine: async ({bytes}) => {
         module = await Engine.compile(bytes).catch(() => undefined);
-        send(module ? {kind: "ready", parameters: new Engine(module).parameters()} : {kind: "unsupported"});
+        send(
+            module
+                ? {kind: "ready", parameters: new Engine(module).parameters()}
+                : {kind: "unsupported"},
+        );
     },
     begin: ({given, events, run: number}) => {
         runNumber = number;
@@ -230,9 +287,11 @@ const handlers: {[Kind in ToWorker["kind"]]: (message: Extract<ToWorker, {kind: 
     repeat: ({given, events}) => repeat(given, events),
     crossing: ({runs}) => {
         const evaluation = module && new Engine(module);
-        if (evaluation) send({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(runs[rate]))});
+        if (evaluation)
+            send({kind: "crossing", crossings: perRate((rate) => evaluation.crossing(runs[rate]))});
     },
-    search: ({rules, made}) => module && send({kind: "search", next: new Engine(module).search(rules, made)}),
+    search: ({rules, made}) =>
+        module && send({kind: "search", next: new Engine(module).search(rules, made)}),
     step: () => {
         if (!engine) return;
         engine.runEvents(1);

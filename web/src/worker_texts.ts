@@ -5,10 +5,17 @@ import {language} from "./start";
 
 export const workerTexts: typeof en = language === "de" ? de : en;
 
-/** Replaces {name} by a value, and {name|one|several} by one of two texts, of which the first is for 1. */
+/** Replaces {name} by a value, and {name|one|several} by one of two texts, of which the first is
+ *  for 1. */
 export const fill = (text: string, values: Record<string, string | number>): string =>
-    text.replace(/\{(\w+)\|((?:[^{}|]|\{\w+\})*)\|((?:[^{}]|\{\w+\})*)\}/g, (_, name: string, one: string, several: string) => (values[name] === 1 ? one : several))
+    text
+        .replace(
+            /\{(\w+)\|((?:[^{}|]|\{\w+\})*)\|((?:[^{}]|\{\w+\})*)\}/g,
+            (_, name: string, one: string, several: string) => (values[name] === 1 ? one : several),
+        )
         .replace(/\{(\w+)\}/g, (_, name: string) => {
             const value = values[name] ?? `{${name}}`;
-            return typeof value === "number" && language === "de" ? String(value).replace(".", ",") : String(value);
+            return typeof value === "number" && language === "de"
+                ? String(value).replace(".", ",")
+                : String(value);
         });

@@ -1,5 +1,6 @@
-// Tests the page's layout at the sizes of laptops and phones: node sizes.mjs FILE.html CHROMIUM [--all]. Without
-// --all it tests a laptop at twice the size and the smallest phone only. Exits with 1 and a message if a test fails.
+// Tests the page's layout at the sizes of laptops and phones: node sizes.mjs FILE.html CHROMIUM
+// [--all]. Without --all it tests a laptop at twice the size and the smallest phone only. Exits
+// with 1 and a message if a test fails.
 import assert from "node:assert/strict";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
@@ -12,46 +13,97 @@ const address = pathToFileURL(file).href;
 const browser = await launch(executablePath);
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
-const newVisitor = "", link = "&seed=1";
-const every = [[1440, 900], [1024, 768], [768, 1024], [683, 384], [683, 800], [390, 844], [360, 640]].flatMap((size) =>
-    ["light", "dark"].flatMap((scheme) => ["en", "de"].flatMap((lang) => [newVisitor, link].map((query) => [...size, scheme, lang, query]))));
-const few = [[683, 384, "light", "de", link], [360, 640, "light", "de", newVisitor], [360, 640, "dark", "de", link],
-             [360, 640, "light", "en", newVisitor]];
+const newVisitor = "",
+    link = "&seed=1";
+const every = [
+    [1440, 900],
+    [1024, 768],
+    [768, 1024],
+    [683, 384],
+    [683, 800],
+    [390, 844],
+    [360, 640],
+].flatMap((size) =>
+    ["light", "dark"].flatMap((scheme) =>
+        ["en", "de"].flatMap((lang) =>
+            [newVisitor, link].map((query) => [...size, scheme, lang, query]),
+        ),
+    ),
+);
+const few = [
+    [683, 384, "light", "de", link],
+    [360, 640, "light", "de", newVisitor],
+    [360, 640, "dark", "de", link],
+    [360, 640, "light", "en", newVisitor],
+];
 for (const [width, height, colorScheme, lang, query] of all ? every : few) {
-    const isNew = query === "", where = `${width} × ${height}, ${colorScheme}, ${lang}, ${isNew ? "a new visitor" : "a link"}`;
-    const page = await browser.newPage({viewport: {width, height}, colorScheme, reducedMotion: "reduce"});
+    const isNew = query === "",
+        where = `${width} × ${height}, ${colorScheme}, ${lang}, ${isNew ? "a new visitor" : "a link"}`;
+    const page = await browser.newPage({
+        viewport: {width, height},
+        colorScheme,
+        reducedMotion: "reduce",
+    });
     await page.addInitScript({path: axe});
     await page.goto(`${address}?lang=${lang}${query}`);
-    await page.waitForFunction(() => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30);
+    await page.waitForFunction(
+        () => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30,
+    );
     // (A window of 384 pixels, that of a laptop at twice the size, is too low for all of them.)
     // A new visitor sees two dishes, the sentence, the plot and the hand.
-    const first = height <= 400 ? ["views", "play"] : isNew && width <= 768 ? ["views", "headline", "play", "by-hand", "discovery-plot", "slider-discs"]
-        : ["views", "headline", "gauge", "play", "by-hand", "slider-discs", "slider-mu"];
-    // Nothing extends beyond the page. The dish, the verdict and both main sliders are in the first screen.
+    const first =
+        height <= 400
+            ? ["views", "play"]
+            : isNew && width <= 768
+              ? ["views", "headline", "play", "by-hand", "discovery-plot", "slider-discs"]
+              : ["views", "headline", "gauge", "play", "by-hand", "slider-discs", "slider-mu"];
+    // Nothing extends beyond the page. The dish, the verdict and both main sliders are in the first
+    // screen.
     const fits = async (font, ofPage, high) => {
-        const [wide, ...places] = await page.evaluate((ids) => [document.documentElement.scrollWidth, ...ids.map((id) => {
-            const {left, top, right, bottom} = document.getElementById(id).getBoundingClientRect();
-            return {id, left, top, right, bottom};
-        })], first);
+        const [wide, ...places] = await page.evaluate(
+            (ids) => [
+                document.documentElement.scrollWidth,
+                ...ids.map((id) => {
+                    const {left, top, right, bottom} = document
+                        .getElementById(id)
+                        .getBoundingClientRect();
+                    return {id, left, top, right, bottom};
+                }),
+            ],
+            first,
+        );
         assert.ok(wide <= ofPage, `${where}, ${font}: the page is ${wide} wide`);
         for (const {id, left, top, right, bottom} of places)
-            assert.ok(left >= 0 && top >= 0 && right > left && right <= ofPage && bottom <= high,
-                      `${where}, ${font}: #${id} ends at ${right}, ${bottom}`);
+            assert.ok(
+                left >= 0 && top >= 0 && right > left && right <= ofPage && bottom <= high,
+                `${where}, ${font}: #${id} ends at ${right}, ${bottom}`,
+            );
     };
     await fits("Inter", width, height);
     if (width === 360 && isNew) await inEachFont(page, fits);
     const dish = await page.locator("#views canvas").last().boundingBox();
-    assert.ok(dish.width >= 0.42 * Math.min(width, height), `${where}: the dish is ${dish.width} wide`);
+    assert.ok(
+        dish.width >= 0.42 * Math.min(width, height),
+        `${where}: the dish is ${dish.width} wide`,
+    );
     // A name is broken between words only: no word of a label is wider than its place.
-    const broken = await page.$$eval("label, button, legend, summary, dt", (all) => all.filter((each) =>
-        each.offsetParent !== null && each.scrollWidth > each.clientWidth + 1).map((each) => each.outerHTML.slice(0, 80)));
+    const broken = await page.$$eval("label, button, legend, summary, dt", (all) =>
+        all
+            .filter((each) => each.offsetParent !== null && each.scrollWidth > each.clientWidth + 1)
+            .map((each) => each.outerHTML.slice(0, 80)),
+    );
     assert.deepEqual(broken, [], where);
     // Menus open inside the window.
     for (const id of ["view-options", "share"]) {
         await page.click(`#${id} summary`);
         const menu = await page.locator(`#${id} .menu`).boundingBox();
-        assert.ok(menu.x >= 0 && menu.y >= 0 && menu.x + menu.width <= width && menu.y + menu.height <= height,
-                  `${where}: the menu of #${id} is at ${JSON.stringify(menu)}`);
+        assert.ok(
+            menu.x >= 0 &&
+                menu.y >= 0 &&
+                menu.x + menu.width <= width &&
+                menu.y + menu.height <= height,
+            `${where}: the menu of #${id} is at ${JSON.stringify(menu)}`,
+        );
         await page.click(`#${id} summary`);
     }
     // On a phone the dish stays while the controls scroll.
@@ -62,13 +114,18 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
     }
     await page.evaluate(() => {
         scrollTo(0, 0);
-        for (const each of document.querySelectorAll("#panels details, #view-options")) each.open = true;
+        for (const each of document.querySelectorAll("#panels details, #view-options"))
+            each.open = true;
     });
     const wideOpen = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wideOpen <= width, `${where}: the open page is ${wideOpen} wide`);
-    const violations = await page.evaluate(async () => (await globalThis.axe.run(
-        {runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"]})).violations
-        .map(({id, nodes}) => `${id}: ${nodes[0].html}`));
+    const violations = await page.evaluate(async () =>
+        (
+            await globalThis.axe.run({
+                runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"],
+            })
+        ).violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`),
+    );
     assert.deepEqual(violations, [], where);
     await page.close();
 }

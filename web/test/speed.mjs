@@ -1,7 +1,7 @@
-// Compares the speed of the WebAssembly engine with the program: node speed.mjs SWIRL, after `./swirl lab`
-// and a build of bench/run. The runs alternate. Prints events per second in Node.js: the bare event loop
-// with and without SIMD next to `bench/run --width sse2`, and with the page's averages next to
-// `SWIRL run`, also with vectors of 128 bits.
+// Compares the speed of the WebAssembly engine with the program: node speed.mjs SWIRL, after
+// `./swirl lab` and a build of bench/run. The runs alternate. Prints events per second in Node.js:
+// the bare event loop with and without SIMD next to `bench/run --width sse2`, and with the page's
+// averages next to `SWIRL run`, also with vectors of 128 bits.
 import {execFileSync} from "node:child_process";
 import {readFileSync} from "node:fs";
 import {dirname, join} from "node:path";
@@ -9,7 +9,9 @@ import {fileURLToPath} from "node:url";
 
 const [program] = process.argv.slice(2);
 const built = join(dirname(fileURLToPath(import.meta.url)), "..", "..", "build", "wasm");
-execFileSync("cmake", ["--build", built, "--target", "swirl", "event_loop", "event_loop_scalar"], {stdio: "ignore"});
+execFileSync("cmake", ["--build", built, "--target", "swirl", "event_loop", "event_loop_scalar"], {
+    stdio: "ignore",
+});
 const bench = join(built, "..", "..", "bench", "run");
 const median = (values) => values.sort((a, b) => a - b)[Math.floor(values.length / 2)];
 const events = 300_000;
@@ -18,7 +20,12 @@ const compiled = (name) => WebAssembly.compile(readFileSync(join(built, `${name}
 const instance = (module) => {
     const {exports} = new WebAssembly.Instance(module, {
         wasi_snapshot_preview1: new Proxy({}, {get: () => () => 52}),
-        page: {reject: () => { throw new Error("rejected"); }}});
+        page: {
+            reject: () => {
+                throw new Error("rejected");
+            },
+        },
+    });
     exports._initialize();
     return exports;
 };
@@ -43,19 +50,29 @@ function pageRate(module, discs) {
     return rateOf(dish);
 }
 const scene = "container, mu = 1";
-const answerOf = (command, ...options) => JSON.parse(execFileSync(command, [...options, "--json", "-", "--quiet"],
-    {env: {...process.env, SWIRL_SIMD: "sse2"}}));
+const answerOf = (command, ...options) =>
+    JSON.parse(
+        execFileSync(command, [...options, "--json", "-", "--quiet"], {
+            env: {...process.env, SWIRL_SIMD: "sse2"},
+        }),
+    );
 const runRate = (discs) =>
     answerOf(program, "run", "--discs", discs, "--events", events).events_per_second / 1e6;
-const benchRates = () => answerOf(bench, "--only", scene, "--width", "sse2", "--seconds", "0.3").rows;
+const benchRates = () =>
+    answerOf(bench, "--only", scene, "--width", "sse2", "--seconds", "0.3").rows;
 
-const [page, loop, scalar] = await Promise.all(["swirl", "event_loop", "event_loop_scalar"].map(compiled));
-const rows = new Map([48, 28, 5].map((discs) =>
-    [discs, {native: [], loop: [], scalar: [], run: [], page: []}]));
+const [page, loop, scalar] = await Promise.all(
+    ["swirl", "event_loop", "event_loop_scalar"].map(compiled),
+);
+const rows = new Map(
+    [48, 28, 5].map((discs) => [discs, {native: [], loop: [], scalar: [], run: [], page: []}]),
+);
 for (let turn = 0; turn < 5; ++turn) {
     const bench = benchRates();
     for (const [discs, row] of rows) {
-        row.native.push(bench.find((r) => r.scene.startsWith(scene) && r.discs === discs).rate / 1e6);
+        row.native.push(
+            bench.find((r) => r.scene.startsWith(scene) && r.discs === discs).rate / 1e6,
+        );
         row.loop.push(loopRate(loop, discs));
         row.scalar.push(loopRate(scalar, discs));
         row.run.push(runRate(discs));
@@ -63,10 +80,17 @@ for (let turn = 0; turn < 5; ++turn) {
     }
 }
 for (const [discs, row] of rows) {
-    const [native, simd, scalar, run, page] =
-        [row.native, row.loop, row.scalar, row.run, row.page].map(median);
-    console.log(`N = ${discs}, million events/s: loop ${native.toFixed(2)}, ` +
-        `WebAssembly ${simd.toFixed(2)} (${(simd / native).toFixed(2)}), ` +
-        `without SIMD ${scalar.toFixed(2)} (${(scalar / native).toFixed(2)}); ` +
-        `with averages ${run.toFixed(2)}, page ${page.toFixed(2)} (${(page / run).toFixed(2)})`);
+    const [native, simd, scalar, run, page] = [
+        row.native,
+        row.loop,
+        row.scalar,
+        row.run,
+        row.page,
+    ].map(median);
+    console.log(
+        `N = ${discs}, million events/s: loop ${native.toFixed(2)}, ` +
+            `WebAssembly ${simd.toFixed(2)} (${(simd / native).toFixed(2)}), ` +
+            `without SIMD ${scalar.toFixed(2)} (${(scalar / native).toFixed(2)}); ` +
+            `with averages ${run.toFixed(2)}, page ${page.toFixed(2)} (${(page / run).toFixed(2)})`,
+    );
 }

@@ -1,4 +1,5 @@
-// Unit tests of the page's own computations: node units.mjs. Exits with 1 and a message if a test fails.
+// Unit tests of the page's own computations: node units.mjs. Exits with 1 and a message if a test
+// fails.
 import assert from "node:assert/strict";
 import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
@@ -11,59 +12,133 @@ const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
 const folder = mkdtempSync(join(tmpdir(), "swirl-units-"));
 const load = async (name, as = name) => {
     const outfile = join(folder, `${as}.mjs`);
-    await build({entryPoints: [join(sources, `${name}.ts`)], bundle: true, format: "esm", outfile,
-                 logLevel: "error"});
+    await build({
+        entryPoints: [join(sources, `${name}.ts`)],
+        bundle: true,
+        format: "esm",
+        outfile,
+        logLevel: "error",
+    });
     return import(pathToFileURL(outfile).href);
 };
-const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) => new Float64Array(
-    [time, 0, 0, ...centre, 0, 0, radius, 1, 0, discs.length,
-     ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0])]);
+const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) =>
+    new Float64Array([
+        time,
+        0,
+        0,
+        ...centre,
+        0,
+        0,
+        radius,
+        1,
+        0,
+        discs.length,
+        ...discs.flatMap(([x, y, r = 1]) => [x, y, 0.25, -0.5, 1, 2, r, 0]),
+    ]);
 
-/** Finds visible texts in a source other than symbols.ts: letters in the text, name or label of an element
- *  or canvas; elsewhere strings of several words, or with letters that identifiers cannot have. */
+/** Finds visible texts in a source other than symbols.ts: letters in the text, name or label of an
+ *  element or canvas; elsewhere strings of several words, or with letters that identifiers cannot
+ *  have. */
 const shownBy = (source) => {
-    const found = [], file = ts.createSourceFile("a.ts", source, ts.ScriptTarget.ES2022, true);
-    const shown = ["textContent", "innerText", "innerHTML", "title", "label", "alt", "placeholder", "ariaLabel"];
+    const found = [],
+        file = ts.createSourceFile("a.ts", source, ts.ScriptTarget.ES2022, true);
+    const shown = [
+        "textContent",
+        "innerText",
+        "innerHTML",
+        "title",
+        "label",
+        "alt",
+        "placeholder",
+        "ariaLabel",
+    ];
     const nameOf = (node) => node.name?.text ?? node.text ?? "";
     /** The arguments of a call that are shown. */
-    const shownOf = ({expression, arguments: given = []}) => ({
-        __proto__: null, element: given.slice(2), append: given, prepend: given, button: given.slice(0, 1),
-        field: given.slice(0, 1), choice: given.slice(1, 2), figure: given.slice(1), alert: given,
-        showError: given, UsageError: given, fillText: given.slice(0, 1), strokeText: given.slice(0, 1),
-        setAttribute: /^(aria-label|aria-description|title|alt|placeholder)$/.test(given[0]?.text)
-            ? given.slice(1) : [],
-    })[nameOf(expression)] ?? [];
-    const hidden = (node) => ts.isImportDeclaration(node) || ts.isTypeNode(node) ||
+    const shownOf = ({expression, arguments: given = []}) =>
+        ({
+            __proto__: null,
+            element: given.slice(2),
+            append: given,
+            prepend: given,
+            button: given.slice(0, 1),
+            field: given.slice(0, 1),
+            choice: given.slice(1, 2),
+            figure: given.slice(1),
+            alert: given,
+            showError: given,
+            UsageError: given,
+            fillText: given.slice(0, 1),
+            strokeText: given.slice(0, 1),
+            setAttribute: /^(aria-label|aria-description|title|alt|placeholder)$/.test(
+                given[0]?.text,
+            )
+                ? given.slice(1)
+                : [],
+        })[nameOf(expression)] ?? [];
+    const hidden = (node) =>
+        ts.isImportDeclaration(node) ||
+        ts.isTypeNode(node) ||
         (ts.isNewExpression(node) && nameOf(node.expression) === "Error") || // a programming error, not shown to users
         (ts.isBinaryExpression(node) && nameOf(node.left) === "font") ||
-        (ts.isCallExpression(node) && nameOf(node.expression) === "setAttribute" &&
+        (ts.isCallExpression(node) &&
+            nameOf(node.expression) === "setAttribute" &&
             shownOf(node).length === 0) ||
-        (ts.isCallExpression(node) && /^(matches|closest|querySelector(All)?)$/.test(nameOf(node.expression)));
+        (ts.isCallExpression(node) &&
+            /^(matches|closest|querySelector(All)?)$/.test(nameOf(node.expression)));
     const visit = (node, isShown) => {
         if (hidden(node)) return;
-        if (ts.isStringLiteralLike(node) || [ts.SyntaxKind.TemplateHead, ts.SyntaxKind.TemplateMiddle,
-                                             ts.SyntaxKind.TemplateTail].includes(node.kind)) {
-            if (/[^\p{L}]*\p{L}/u.test(node.text) && isShown || /\p{L}{2,},? \p{L}{2,}/u.test(node.text) ||
-                /[^\P{L}a-zA-Z]/u.test(node.text)) found.push(node.text);
+        if (
+            ts.isStringLiteralLike(node) ||
+            [
+                ts.SyntaxKind.TemplateHead,
+                ts.SyntaxKind.TemplateMiddle,
+                ts.SyntaxKind.TemplateTail,
+            ].includes(node.kind)
+        ) {
+            if (
+                (/[^\p{L}]*\p{L}/u.test(node.text) && isShown) ||
+                /\p{L}{2,},? \p{L}{2,}/u.test(node.text) ||
+                /[^\P{L}a-zA-Z]/u.test(node.text)
+            )
+                found.push(node.text);
             return;
         }
-        const calls = ts.isCallExpression(node) || ts.isNewExpression(node), args = calls ? shownOf(node) : [];
-        const gives = ts.isPropertyAssignment(node) && shown.includes(nameOf(node)) ||
-            ts.isBinaryExpression(node) && node.operatorToken.kind === ts.SyntaxKind.EqualsToken &&
-            shown.includes(nameOf(node.left));
+        const calls = ts.isCallExpression(node) || ts.isNewExpression(node),
+            args = calls ? shownOf(node) : [];
+        const gives =
+            (ts.isPropertyAssignment(node) && shown.includes(nameOf(node))) ||
+            (ts.isBinaryExpression(node) &&
+                node.operatorToken.kind === ts.SyntaxKind.EqualsToken &&
+                shown.includes(nameOf(node.left)));
         // Conditions, names of elements and keys are not shown.
-        const decides = (child) => ts.isConditionalExpression(node) && child === node.condition ||
-            ts.isElementAccessExpression(node) && child === node.argumentExpression;
-        ts.forEachChild(node, (child) => visit(child, calls ? args.includes(child)
-            : !decides(child) && (isShown || gives) && !(gives && child === (node.name ?? node.left))));
+        const decides = (child) =>
+            (ts.isConditionalExpression(node) && child === node.condition) ||
+            (ts.isElementAccessExpression(node) && child === node.argumentExpression);
+        ts.forEachChild(node, (child) =>
+            visit(
+                child,
+                calls
+                    ? args.includes(child)
+                    : !decides(child) &&
+                          (isShown || gives) &&
+                          !(gives && child === (node.name ?? node.left)),
+            ),
+        );
     };
     visit(file, false);
     return found;
 };
 /** Finds visible texts in HTML, where names in double braces stand for texts. */
-const shownByPage = (html) => html.replace(/<!.*?>|\{\{\w+\}\}|<script.*?<\/script>/gs, "")
-    .replace(/<[^>]*>/g, (tag) => (/\b(?:aria-label|title|alt|placeholder)="[^"]*"/.exec(tag) ?? [""])[0]
-        .replace(/^.*?=/, "")).match(/\p{L}+/gu) ?? [];
+const shownByPage = (html) =>
+    html
+        .replace(/<!.*?>|\{\{\w+\}\}|<script.*?<\/script>/gs, "")
+        .replace(/<[^>]*>/g, (tag) =>
+            (/\b(?:aria-label|title|alt|placeholder)="[^"]*"/.exec(tag) ?? [""])[0].replace(
+                /^.*?=/,
+                "",
+            ),
+        )
+        .match(/\p{L}+/gu) ?? [];
 
 try {
     for (const [source, wanted] of [
@@ -74,144 +149,307 @@ try {
         ['a.setAttribute("aria-label", "The dish")', ["The dish"]],
         ['a.setAttribute("aria-keyshortcuts", "ArrowLeft ArrowRight")', []],
         ['context.fillText("M", 0, 0)', ["M"]],
-        ['const said = `${n} runs done`', [" runs done"]],
+        ["const said = `${n} runs done`", [" runs done"]],
         ['axes = [{label: "μ", stroke: "red"}]', ["μ"]],
-        ['element("p", {textContent: texts.wait, id: "wait"}, texts.groups["a"], given["discs"])', []],
-    ]) assert.deepEqual(shownBy(source), wanted, source);
-    const classes = new Set(readdirSync(sources).filter((each) => each.endsWith(".css"))
-        .flatMap((each) => readFileSync(join(sources, each), "utf-8").match(/(?<=\.)[a-z][a-z-]*/g)));
-    for (const name of readdirSync(sources).filter((each) => each.endsWith(".ts") && !/^symbols/.test(each))) {
-        const stray = shownBy(readFileSync(join(sources, name), "utf-8"))
-            .filter((each) => !each.split(" ").every((word) => classes.has(word)));
+        [
+            'element("p", {textContent: texts.wait, id: "wait"}, texts.groups["a"], given["discs"])',
+            [],
+        ],
+    ])
+        assert.deepEqual(shownBy(source), wanted, source);
+    const classes = new Set(
+        readdirSync(sources)
+            .filter((each) => each.endsWith(".css"))
+            .flatMap((each) =>
+                readFileSync(join(sources, each), "utf-8").match(/(?<=\.)[a-z][a-z-]*/g),
+            ),
+    );
+    for (const name of readdirSync(sources).filter(
+        (each) => each.endsWith(".ts") && !/^symbols/.test(each),
+    )) {
+        const stray = shownBy(readFileSync(join(sources, name), "utf-8")).filter(
+            (each) => !each.split(" ").every((word) => classes.has(word)),
+        );
         assert.deepEqual(stray, [], `${name} has texts that belong in texts.en.json`);
     }
     assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
     assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
 
     const {discAt, recent} = await load("scene");
-    const cluster = [[0, 0], [2, 0], [1, 3], [-4, 2]];
+    const cluster = [
+        [0, 0],
+        [2, 0],
+        [1, 3],
+        [-4, 2],
+    ];
     assert.equal(discAt(frame(cluster), 2.5, 0.5), 1);
     assert.equal(discAt(frame(cluster), 2.9, 0.9), undefined);
     // Trails span a fixed time, whatever the interval between two frames.
-    for (const [step, count] of [[0.01, 30], [0.1, 3], [0.2, 1], [2, 0]]) {
-        const history = Array.from({length: 45}, (_, k) => frame(cluster, {time: step * (k - 45) - 1e-9}));
+    for (const [step, count] of [
+        [0.01, 30],
+        [0.1, 3],
+        [0.2, 1],
+        [2, 0],
+    ]) {
+        const history = Array.from({length: 45}, (_, k) =>
+            frame(cluster, {time: step * (k - 45) - 1e-9}),
+        );
         const past = recent(history, frame(cluster), 0.3 + 1e-8);
         assert.equal(past.length, count, `${past.length} frames of ${step} periods`);
         assert.deepEqual(past, history.slice(45 - count)); // the newest ones, in order
     }
 
-    // Sectors stay with the discs: a rotated cluster keeps its colours, and new discs get those of their place.
+    // Sectors stay with the discs: a rotated cluster keeps its colours, and new discs get those of
+    // their place.
     const {SectorPaint, sectorColors} = await load("paint");
-    const ring = (count, by = 0) => Array.from({length: count}, (_, k) => {
-        const angle = 2 * Math.PI * (k + 0.5) / count + by;
-        return [3 + 5 * Math.cos(angle), 4 + 5 * Math.sin(angle)];
-    });
-    const paint = new SectorPaint(), sectors = sectorColors.length;
+    const ring = (count, by = 0) =>
+        Array.from({length: count}, (_, k) => {
+            const angle = (2 * Math.PI * (k + 0.5)) / count + by;
+            return [3 + 5 * Math.cos(angle), 4 + 5 * Math.sin(angle)];
+        });
+    const paint = new SectorPaint(),
+        sectors = sectorColors.length;
     paint.apply(frame(ring(3 * sectors)));
-    assert.deepEqual([...paint.sectors], ring(3 * sectors).map((_, k) => Math.floor(k / 3)));
+    assert.deepEqual(
+        [...paint.sectors],
+        ring(3 * sectors).map((_, k) => Math.floor(k / 3)),
+    );
     paint.extend(frame(ring(3 * sectors, 2)));
-    assert.deepEqual([...paint.sectors], ring(3 * sectors).map((_, k) => Math.floor(k / 3)));
+    assert.deepEqual(
+        [...paint.sectors],
+        ring(3 * sectors).map((_, k) => Math.floor(k / 3)),
+    );
     assert.equal(paint.isMixed(frame(ring(3 * sectors, 2))), false);
     // Each colour opposite itself: the resultants cancel.
-    assert.equal(paint.isMixed(frame(ring(3 * sectors).map((at, k) => (k % 3 ? at : [6 - at[0], 8 - at[1]])))), true);
+    assert.equal(
+        paint.isMixed(
+            frame(ring(3 * sectors).map((at, k) => (k % 3 ? at : [6 - at[0], 8 - at[1]]))),
+        ),
+        true,
+    );
     paint.extend(frame(ring(2)));
     assert.deepEqual([...paint.sectors], [0, 0]);
 
     // The run on display has an error from 50 periods on.
     const {liveEstimate} = await load("estimates");
     const rotation = (blocks, {early = 0, periods = 1, mean = 0.1} = {}) => ({
-        mean_by_time: {mean, blocks: blocks.length - early}, blocks, warmup_blocks: early, periods_per_block: [1, periods]});
-    const wave = (length, slow = 1) => Array.from({length}, (_, k) => 0.1 + 0.01 * (Math.floor(k / slow) % 2 ? 1 : -1));
+        mean_by_time: {mean, blocks: blocks.length - early},
+        blocks,
+        warmup_blocks: early,
+        periods_per_block: [1, periods],
+    });
+    const wave = (length, slow = 1) =>
+        Array.from({length}, (_, k) => 0.1 + 0.01 * (Math.floor(k / slow) % 2 ? 1 : -1));
     assert.deepEqual(liveEstimate(rotation(wave(49))), {mean: 0.1, error: null});
     assert.ok(liveEstimate(rotation(wave(50))).error < 1e-3);
-    // A run that remembers for a quarter has 1.15 times the scatter of its quarters, not that of its periods.
-    // Student's t for three degrees of freedom is 3.1824, and the standard deviation of 0.09, 0.11, 0.09 and 0.11 is 0.01 √(4/3).
-    assert.ok(Math.abs(liveEstimate(rotation(wave(52, 13))).error - 1.15 * 3.182446 / 1.959964 * 0.01 / Math.sqrt(3)) < 1e-12);
+    // A run that remembers for a quarter has 1.15 times the scatter of its quarters, not that of
+    // its periods. Student's t for three degrees of freedom is 3.1824, and the standard deviation
+    // of 0.09, 0.11, 0.09 and 0.11 is 0.01 √(4/3).
+    assert.ok(
+        Math.abs(
+            liveEstimate(rotation(wave(52, 13))).error -
+                (((1.15 * 3.182446) / 1.959964) * 0.01) / Math.sqrt(3),
+        ) < 1e-12,
+    );
     assert.equal(liveEstimate(rotation(wave(60), {early: 20})).error, null); // the warm-up does not count
     assert.ok(liveEstimate(rotation(wave(13), {periods: 4})).error > 0); // blocks of four periods do
     assert.equal(liveEstimate(rotation(Array(80).fill(null), {mean: null})).error, null);
 
-    // The verdict: from all periods while there is no average, firm when the 95 % interval excludes zero.
+    // The verdict: from all periods while there is no average, firm when the 95 % interval excludes
+    // zero.
     const {findingOf} = await load("verdict");
     const nothing = {error: null, isFirm: false};
-    assert.deepEqual(findingOf(undefined, 0.02, 0.1), {mean: null, direction: undefined, ...nothing});
-    assert.deepEqual(findingOf(undefined, -0.1, 0.5), {mean: -0.2, direction: "against", ...nothing});
-    assert.deepEqual(findingOf(rotation([9, 9, 0.25, 0.75], {early: 4, mean: null}), 0, 4),
-                     {mean: 0.5, direction: "with", ...nothing}); // the later half of the warm-up
-    assert.deepEqual(findingOf(rotation(wave(49)), 0, 49), {mean: 0.1, direction: "with", ...nothing});
+    assert.deepEqual(findingOf(undefined, 0.02, 0.1), {
+        mean: null,
+        direction: undefined,
+        ...nothing,
+    });
+    assert.deepEqual(findingOf(undefined, -0.1, 0.5), {
+        mean: -0.2,
+        direction: "against",
+        ...nothing,
+    });
+    assert.deepEqual(findingOf(rotation([9, 9, 0.25, 0.75], {early: 4, mean: null}), 0, 4), {
+        mean: 0.5,
+        direction: "with",
+        ...nothing,
+    }); // the later half of the warm-up
+    assert.deepEqual(findingOf(rotation(wave(49)), 0, 49), {
+        mean: 0.1,
+        direction: "with",
+        ...nothing,
+    });
     assert.equal(findingOf(rotation(wave(50)), 0, 50).isFirm, true);
-    const slow = wave(52, 13), half = 1.96 * liveEstimate(rotation(slow)).error;
+    const slow = wave(52, 13),
+        half = 1.96 * liveEstimate(rotation(slow)).error;
     assert.equal(findingOf(rotation(slow, {mean: -0.99 * half}), 0, 52).isFirm, false);
-    assert.deepEqual([findingOf(rotation(slow, {mean: -1.01 * half}), 0, 52)].map(({isFirm, direction}) => [isFirm, direction]),
-                     [[true, "against"]]);
+    assert.deepEqual(
+        [findingOf(rotation(slow, {mean: -1.01 * half}), 0, 52)].map(({isFirm, direction}) => [
+            isFirm,
+            direction,
+        ]),
+        [[true, "against"]],
+    );
 
-    // The page stores nothing in the browser, so that tabs have nothing in common and nothing can be damaged.
+    // The page stores nothing in the browser, so that tabs have nothing in common and nothing can
+    // be damaged.
     for (const name of readdirSync(sources))
-        assert.doesNotMatch(readFileSync(join(sources, name), "utf-8"),
-                            /localStorage|sessionStorage|indexedDB|BroadcastChannel|SharedWorker|serviceWorker|\.cookie/, name);
+        assert.doesNotMatch(
+            readFileSync(join(sources, name), "utf-8"),
+            /localStorage|sessionStorage|indexedDB|BroadcastChannel|SharedWorker|serviceWorker|\.cookie/,
+            name,
+        );
 
     // In any orientation the eight octants of a sphere cover its visible half exactly once.
     const {inRotatedAxes, rotated, visiblePart} = await load("ball");
-    const areaOf = (outline) => outline.reduce((sum, [x, y], k) => {
-        const [u, v] = outline[(k + 1) % outline.length];
-        return sum + 0.5 * (x * v - y * u);
-    }, 0);
-    const edge = (from, to) => Array.from({length: 200}, (_, k) => from.map(
-        (x, axis) => x * Math.cos(Math.PI * k / 400) + to[axis] * Math.sin(Math.PI * k / 400)));
-    for (const raw of [[1, 0, 0, 0], [1, 1, 1, 1], [1, 2, 3, 4], [0.3, -1, 0.2, 0.7], [1, 1e-3, 0, 0]]) {
+    const areaOf = (outline) =>
+        outline.reduce((sum, [x, y], k) => {
+            const [u, v] = outline[(k + 1) % outline.length];
+            return sum + 0.5 * (x * v - y * u);
+        }, 0);
+    const edge = (from, to) =>
+        Array.from({length: 200}, (_, k) =>
+            from.map(
+                (x, axis) =>
+                    x * Math.cos((Math.PI * k) / 400) + to[axis] * Math.sin((Math.PI * k) / 400),
+            ),
+        );
+    for (const raw of [
+        [1, 0, 0, 0],
+        [1, 1, 1, 1],
+        [1, 2, 3, 4],
+        [0.3, -1, 0.2, 0.7],
+        [1, 1e-3, 0, 0],
+    ]) {
         const turn = raw.map((x) => x / Math.hypot(...raw));
         let seen = 0;
-        for (const x of [-1, 1]) for (const y of [-1, 1]) for (const z of [-1, 1]) {
-            const corners = [[x, 0, 0], [0, y, 0], [0, 0, z]];
-            const outline = corners.flatMap((corner, k) => edge(corner, corners[(k + 1) % 3]));
-            seen += Math.abs(areaOf(visiblePart(outline.map((point) => rotated(turn, point)))));
-        }
-        // The rim of a part has five straight pieces. Its area is smaller than the circle's by at most a sixth
-        // of (π/2/5)²; nothing else may be missing.
-        assert.ok(seen < Math.PI * (1 + 1e-12) && seen > Math.PI * (1 - 0.1 / 6), `${seen} for ${turn}`);
+        for (const x of [-1, 1])
+            for (const y of [-1, 1])
+                for (const z of [-1, 1]) {
+                    const corners = [
+                        [x, 0, 0],
+                        [0, y, 0],
+                        [0, 0, z],
+                    ];
+                    const outline = corners.flatMap((corner, k) =>
+                        edge(corner, corners[(k + 1) % 3]),
+                    );
+                    seen += Math.abs(
+                        areaOf(visiblePart(outline.map((point) => rotated(turn, point)))),
+                    );
+                }
+        // The rim of a part has five straight pieces. Its area is smaller than the circle's by at
+        // most a sixth of (π/2/5)²; nothing else may be missing.
+        assert.ok(
+            seen < Math.PI * (1 + 1e-12) && seen > Math.PI * (1 - 0.1 / 6),
+            `${seen} for ${turn}`,
+        );
     }
-    const [q0, q1] = [0, 0.3].map((angle) => rotated(
-        inRotatedAxes(angle, [0.5, 0.5, 0.5, 0.5]), [0.6, 0, 0.8]));
+    const [q0, q1] = [0, 0.3].map((angle) =>
+        rotated(inRotatedAxes(angle, [0.5, 0.5, 0.5, 0.5]), [0.6, 0, 0.8]),
+    );
     assert.ok(Math.abs(q1[0] - (q0[0] * Math.cos(0.3) + q0[1] * Math.sin(0.3))) < 1e-15);
     assert.ok(Math.abs(q1[1] - (q0[1] * Math.cos(0.3) - q0[0] * Math.sin(0.3))) < 1e-15);
     assert.deepEqual(rotated([0.5, 0.5, 0.5, 0.5], [1, 0, 0]), [0, 1, 0]); // x to y, y to z, z to x
 
     const {xyz, positionsOf, Frames} = await load("recording");
-    const lines = xyz(frame([[1, 2], [3, 4, 0.5]], {time: 7.5})).split("\n");
+    const lines = xyz(
+        frame(
+            [
+                [1, 2],
+                [3, 4, 0.5],
+            ],
+            {time: 7.5},
+        ),
+    ).split("\n");
     assert.equal(lines[0], "2");
-    assert.match(lines[1], /^Properties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:id:I:1 Time=7.5 /);
+    assert.match(
+        lines[1],
+        /^Properties=species:S:1:pos:R:3:velo:R:3:omega:R:1:radius:R:1:id:I:1 Time=7.5 /,
+    );
     assert.equal(lines[2], "D1 1 2 0 1 2 0 -0.5 1 1");
     assert.equal(lines[3], "D2 3 4 0 1 2 0 -0.5 0.5 2");
     assert.deepEqual(lines.slice(4), [""]);
     const both = [frame([[1, 2]]), frame([[3, 4]], {time: 1})];
     assert.equal(await positionsOf(both).text(), both.map(xyz).join(""));
-    const kept = new Frames(), large = {length: 3e6}; // the size of a frame with 375,000 discs
-    assert.deepEqual(Array.from({length: 6}, () => kept.add(large)), [true, true, true, true, true, false]);
+    const kept = new Frames(),
+        large = {length: 3e6}; // the size of a frame with 375,000 discs
+    assert.deepEqual(
+        Array.from({length: 6}, () => kept.add(large)),
+        [true, true, true, true, true, false],
+    );
     assert.equal(kept.all.length, 6);
 
-    // The time-lapse glides on arcs about the centre of mass, also by more than half a turn, and ends at the next image.
+    // The time-lapse glides on arcs about the centre of mass, also by more than half a turn, and
+    // ends at the next image.
     const {between, isWholePeriod, centreOf} = await load("strobe");
-    const [start, next] = [frame([[3, 0], [1, 0]]), frame([[2, -1], [2, 1]])]; // three quarters of a turn
+    const [start, next] = [
+        frame([
+            [3, 0],
+            [1, 0],
+        ]),
+        frame([
+            [2, -1],
+            [2, 1],
+        ]),
+    ]; // three quarters of a turn
     assert.deepEqual(centreOf(start), [2, 0]);
     assert.equal(between(start, next, 0.75, 1), next);
     const halfway = between(start, next, 0.75, 0.5);
     for (const [k, wanted] of [2 + Math.cos(0.75 * Math.PI), Math.sin(0.75 * Math.PI)].entries())
         assert.ok(Math.abs(halfway[11 + k] - wanted) < 1e-12, `${halfway}`); // rounding of sines
     assert.equal(between(start, frame([[2, -1]]), 0.75, 0.5).length, 19); // another number of discs appears at once
-    assert.deepEqual([0, 1e-9, 0.5, 1 - 1e-9].map((phase) => isWholePeriod([0, 0, 12 * phase], 12)), [true, true, false, true]);
+    assert.deepEqual(
+        [0, 1e-9, 0.5, 1 - 1e-9].map((phase) => isWholePeriod([0, 0, 12 * phase], 12)),
+        [true, true, false, true],
+    );
 
-    // Contacts of the last fifteenth of a period are drawn; those of discs that were removed are not.
-    const {Contacts} = await load("contacts"), shownContacts = new Contacts();
-    shownContacts.add({frame: frame([[0, 0], [2, 0]], {time: 1}), contacts: new Float64Array([0.5, 0, 1, 1, 0.99, 1, 1, 0, 0.99, 0, 2, 1])}, 15);
-    assert.deepEqual(shownContacts.recent, [{i: 0, j: 1, sticks: true}, {i: 1, j: 1, sticks: false}]);
-    shownContacts.add({frame: frame([[0, 0], [2, 0]], {time: 1.9}), contacts: new Float64Array()}, 15);
+    // Contacts of the last fifteenth of a period are drawn; those of discs that were removed are
+    // not.
+    const {Contacts} = await load("contacts"),
+        shownContacts = new Contacts();
+    shownContacts.add(
+        {
+            frame: frame(
+                [
+                    [0, 0],
+                    [2, 0],
+                ],
+                {time: 1},
+            ),
+            contacts: new Float64Array([0.5, 0, 1, 1, 0.99, 1, 1, 0, 0.99, 0, 2, 1]),
+        },
+        15,
+    );
+    assert.deepEqual(shownContacts.recent, [
+        {i: 0, j: 1, sticks: true},
+        {i: 1, j: 1, sticks: false},
+    ]);
+    shownContacts.add(
+        {
+            frame: frame(
+                [
+                    [0, 0],
+                    [2, 0],
+                ],
+                {time: 1.9},
+            ),
+            contacts: new Float64Array(),
+        },
+        15,
+    );
     assert.deepEqual(shownContacts.recent, [{i: 1, j: 1, sticks: false}]);
     shownContacts.add({frame: frame([[0, 0]])}, 15);
     assert.deepEqual(shownContacts.recent, []);
 
     const {periodsOf, meansOf, tableOf} = await load("series");
-    const short = {warmup: 2, warmup_blocks: 2, periods_per_block: [1, 1], blocks: [5, 7, 1, 3, null],
-                   rigid_blocks: [6, 8, 2, 4, null]};
+    const short = {
+        warmup: 2,
+        warmup_blocks: 2,
+        periods_per_block: [1, 1],
+        blocks: [5, 7, 1, 3, null],
+        rigid_blocks: [6, 8, 2, 4, null],
+    };
     assert.deepEqual(periodsOf(short), [1, 2, 3, 4, 5]);
     assert.deepEqual(meansOf(short), [null, null, 1, 2, 4 / 3]);
     assert.equal(tableOf(short), "period,varpi,varpi_rigid\n1,5,6\n2,7,8\n3,1,2\n4,3,4\n5,,\n");
@@ -219,8 +457,21 @@ try {
     // After a change the periods continue, with a gap in the lines.
     const {joined} = await load("curve");
     assert.deepEqual(joined([[], [], []], undefined), [[], [], []]);
-    assert.deepEqual(joined([[1, 2], [8, 9], [null, 9]], {...short, blocks: [5, 7, 1]}),
-                     [[1, 2, 2, 3, 4, 5], [8, 9, null, 5, 7, 1], [null, 9, null, null, null, 1]]);
+    assert.deepEqual(
+        joined(
+            [
+                [1, 2],
+                [8, 9],
+                [null, 9],
+            ],
+            {...short, blocks: [5, 7, 1]},
+        ),
+        [
+            [1, 2, 2, 3, 4, 5],
+            [8, 9, null, 5, 7, 1],
+            [null, 9, null, null, null, 1],
+        ],
+    );
     // A long run with merged blocks: two periods each in the warm-up, four after it.
     const long = {warmup: 5, warmup_blocks: 2, periods_per_block: [2, 4], blocks: [1, 1, 3, 5]};
     assert.deepEqual(periodsOf(long), [2, 4, 9, 13]);

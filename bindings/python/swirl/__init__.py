@@ -4,9 +4,9 @@
     r = swirl.run(discs=48, measure=["density"])        # one run to its averages
     sim = swirl.Simulation(discs=48)                    # a simulation, event by event
 
-Engine and parameters are those of the command line, and results are bitwise identical. Units: radius
-of a disc = 1, mass of a disc = 1, speed of the container = 1 (docs/explanation/physics.md). docs/tutorials/python.md is the
-guide.
+Engine and parameters are those of the command line, and results are bitwise identical. Units:
+radius of a disc = 1, mass of a disc = 1, speed of the container = 1 (docs/explanation/physics.md).
+docs/tutorials/python.md is the guide.
 """
 
 from . import plot as plot
@@ -31,16 +31,57 @@ from ._zero_crossing import zero_crossing
 __version__ = _version().split()[0]
 
 __all__ = [
-    "Analysis", "ArrayEstimate", "Crossing", "Estimate", "Event", "EventCounts", "EventKind", "Failure",
-    "FileError", "Frames", "Interrupted", "Lab", "Measured", "Parameter", "PointComparison", "Recording", "Result", "Rotation",
-    "SeedMean", "Series", "Simulation", "Snapshot", "SweepWarning", "Table", "Tracks", "Trajectory", "VideoTracks", "analyse",
-    "collect", "compare_points", "crossing", "lab", "load", "map", "measurements", "over_seeds", "parameter_map", "parameters", "plot", "run",
-    "samples_per_period", "sweep", "track", "with_error", "zero_crossing",
+    "Analysis",
+    "ArrayEstimate",
+    "Crossing",
+    "Estimate",
+    "Event",
+    "EventCounts",
+    "EventKind",
+    "Failure",
+    "FileError",
+    "Frames",
+    "Interrupted",
+    "Lab",
+    "Measured",
+    "Parameter",
+    "PointComparison",
+    "Recording",
+    "Result",
+    "Rotation",
+    "SeedMean",
+    "Series",
+    "Simulation",
+    "Snapshot",
+    "SweepWarning",
+    "Table",
+    "Tracks",
+    "Trajectory",
+    "VideoTracks",
+    "analyse",
+    "collect",
+    "compare_points",
+    "crossing",
+    "lab",
+    "load",
+    "map",
+    "measurements",
+    "over_seeds",
+    "parameter_map",
+    "parameters",
+    "plot",
+    "run",
+    "samples_per_period",
+    "sweep",
+    "track",
+    "with_error",
+    "zero_crossing",
 ]
 
 for _name in __all__:
     _public = globals()[_name]
     if isinstance(_public, type) and not issubclass(_public, BaseException):
         _shown_in_notebooks(_public)
-        # sim.mu = 0 would have no effect. Exceptions are like those of Python, which take any attribute.
+        # sim.mu = 0 would have no effect. Exceptions are like those of Python, which take any
+        # attribute.
         _closed(_public)

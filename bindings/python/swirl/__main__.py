@@ -11,8 +11,10 @@ from swirl._program import program
 def main() -> None:
     path = program()
     if path is None:
-        sys.exit("error: this installation of the Python package has no program.\n"
-                 "hint: install the program, or reinstall the package with pip.")
+        sys.exit(
+            "error: this installation of the Python package has no program.\n"
+            "hint: install the program, or reinstall the package with pip."
+        )
     os.environ.setdefault("SWIRL_PYTHON", sys.executable)  # draws the figures
     os.execv(path, ["swirl", *sys.argv[1:]])
 

@@ -23,8 +23,10 @@ def text(name: str, value: object) -> str:
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"{name} is {_engine.shortened(ascii(value))}, but half of a surrogate pair is not a "
-                         "character.") from None
+        raise ValueError(
+            f"{name} is {_engine.shortened(ascii(value))}, but half of a surrogate pair is not a "
+            "character."
+        ) from None
     return value
 
 
@@ -36,8 +38,8 @@ def file_name(name: str, value: object) -> str:
 
 
 def closed(cls: type) -> None:
-    """An assignment that would have no effect raises AttributeError, with what to do. The instances of `cls` have no
-    dictionary, except the members of an enumeration."""
+    """An assignment that would have no effect raises AttributeError, with what to do. The instances
+    of `cls` have no dictionary, except the members of an enumeration."""
     assign: Any = cls.__setattr__
     is_enumeration = issubclass(cls, enum.Enum)
 
@@ -57,11 +59,17 @@ def closed(cls: type) -> None:
 def _sentence_on(owner: Any, name: str) -> str:
     kind = f"swirl.{type(owner).__name__}"
     if kind == "swirl.Simulation" and name in (row[0] for row in _engine.parameters()):
-        return (f"{name} cannot be assigned: a simulation keeps its parameters.\nhint: make another one with "
-                f"swirl.Simulation({name}=...), or let ramp change a parameter during the run.")
+        return (
+            f"{name} cannot be assigned: a simulation keeps its parameters.\n"
+            "hint: make another one with "
+            f"swirl.Simulation({name}=...), or let ramp change a parameter during the run."
+        )
     public = [other for other in dir(type(owner)) if not other.startswith("_")]
     if name in public:
         return f"{name} of {kind} cannot be assigned.\nhint: keep your value in a variable."
     similar = difflib.get_close_matches(name, public, 1)
     meant = f"did you mean {similar[0]}? Otherwise " if similar else ""
-    return f"{kind} has no attribute '{_engine.shortened(name)}'.\nhint: {meant}keep your value in a variable."
+    return (
+        f"{kind} has no attribute '{_engine.shortened(name)}'.\n"
+        f"hint: {meant}keep your value in a variable."
+    )

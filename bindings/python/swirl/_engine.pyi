@@ -180,8 +180,13 @@ class Event:
         """Depth of the contact: a rounding error."""
 
 class Simulation:
-    def __init__(self, parameters: dict[str, Any], discs: dict[str, _Floats],
-                 path: Optional[_Floats], path_times: Optional[_Floats]) -> None: ...
+    def __init__(
+        self,
+        parameters: dict[str, Any],
+        discs: dict[str, _Floats],
+        path: Optional[_Floats],
+        path_times: Optional[_Floats],
+    ) -> None: ...
     def step(self, count: int) -> npt.NDArray[np.void]: ...
     def next(self) -> Event: ...
     def run(self, count: int) -> None: ...
@@ -209,9 +214,16 @@ class Simulation:
     def __len__(self) -> int: ...
 
 class Plan:
-    def __init__(self, parameters: dict[str, Any], seeds: int, measured: list[str],
-                 frames: int, chain: str = "", series: bool = False,
-                 rows: Optional[list[dict[str, Any]]] = None) -> None: ...
+    def __init__(
+        self,
+        parameters: dict[str, Any],
+        seeds: int,
+        measured: list[str],
+        frames: int,
+        chain: str = "",
+        series: bool = False,
+        rows: Optional[list[dict[str, Any]]] = None,
+    ) -> None: ...
     @property
     def axes(self) -> dict[str, list[str]]: ...
     def points(self) -> list[dict[str, str]]: ...
@@ -224,9 +236,16 @@ class Recording:
     @staticmethod
     def of_frames(frames: Frames) -> Recording: ...
     @staticmethod
-    def tracks(frame: npt.NDArray[Any], particle: npt.NDArray[Any], x: npt.NDArray[Any],
-               y: npt.NDArray[Any], radius: npt.NDArray[Any], time: npt.NDArray[Any],
-               scale: dict[str, Any], max_invalid: float) -> Recording: ...
+    def tracks(
+        frame: npt.NDArray[Any],
+        particle: npt.NDArray[Any],
+        x: npt.NDArray[Any],
+        y: npt.NDArray[Any],
+        radius: npt.NDArray[Any],
+        time: npt.NDArray[Any],
+        scale: dict[str, Any],
+        max_invalid: float,
+    ) -> Recording: ...
     @staticmethod
     def read_tracks(file: str) -> dict[str, npt.NDArray[Any]]: ...
     @property
@@ -237,18 +256,33 @@ class Recording:
     @property
     def complete(self) -> bool: ...
     def about(self) -> dict[str, str]: ...
-    def analyse(self, measured: list[str], all: bool, warmup: float) -> tuple[
-        list[Report], tuple[float, float, float, int], tuple[float, float, float, int], int, str]: ...
+    def analyse(
+        self, measured: list[str], all: bool, warmup: float
+    ) -> tuple[
+        list[Report], tuple[float, float, float, int], tuple[float, float, float, int], int, str
+    ]: ...
     def __len__(self) -> int: ...
 
 samples_per_period: int
 event_dtype: np.dtype[np.void]
 
-def run(parameters: dict[str, Any], measured: list[str], command: str,
-        progress: Optional[Callable[[float, int, float], object]], frames_per_period: int,
-        period_ended: Optional[Callable[[Frames], None]], files: dict[str, Any], series: bool
-        ) -> tuple[str, list[Report], Optional[BaseException], str, str,
-                   Optional[tuple[list[str], list[str], list[str], _Floats]]]: ...
+def run(
+    parameters: dict[str, Any],
+    measured: list[str],
+    command: str,
+    progress: Optional[Callable[[float, int, float], object]],
+    frames_per_period: int,
+    period_ended: Optional[Callable[[Frames], None]],
+    files: dict[str, Any],
+    series: bool,
+) -> tuple[
+    str,
+    list[Report],
+    Optional[BaseException],
+    str,
+    str,
+    Optional[tuple[list[str], list[str], list[str], _Floats]],
+]: ...
 def resolve(parameters: dict[str, Any]) -> str: ...
 def measurement_list(names: str) -> list[str]: ...
 def measurement_kinds() -> list[tuple[str, str, str]]: ...
@@ -260,34 +294,88 @@ def version() -> str: ...
 def build_description() -> str: ...
 def snapshot_from_bytes(data: bytes) -> Snapshot: ...
 def frames_from_bytes(data: bytes) -> Frames: ...
-def grow(folder: str, more: dict[str, Any], seeds: int, measured: Sequence[str],
-         rows: Optional[list[dict[str, Any]]]) -> None: ...
+def grow(
+    folder: str,
+    more: dict[str, Any],
+    seeds: int,
+    measured: Sequence[str],
+    rows: Optional[list[dict[str, Any]]],
+) -> None: ...
 def run_identity(parameters: dict[str, Any]) -> str: ...
 def write_file(path: str, content: bytes) -> None: ...
-def result_files(folder: str, rows: list[dict[str, Any]], seeds: int) -> list[list[tuple[str, str]]]: ...
-def sweep(folder: str, threads: int, progress: Optional[Callable[[float, float, int], object]],
-          rows: Optional[list[dict[str, Any]]] = None) -> tuple[int, int, int, str]: ...
+def result_files(
+    folder: str, rows: list[dict[str, Any]], seeds: int
+) -> list[list[tuple[str, str]]]: ...
+def sweep(
+    folder: str,
+    threads: int,
+    progress: Optional[Callable[[float, float, int], object]],
+    rows: Optional[list[dict[str, Any]]] = None,
+) -> tuple[int, int, int, str]: ...
 def collect(folder: str) -> tuple[str, int, int, int, int, int, int, int, str]: ...
-def write_map_plan(folder: str, x: dict[str, Any], y: dict[str, Any], quantity: str, rate: str, level: float,
-                   change: Optional[float], tolerance: float, steps: int, seeds: int, min_discs: int,
-                   max_discs: int, parameters: dict[str, Any]) -> None: ...
-def grow_map(folder: str, x: dict[str, Any], y: dict[str, Any], steps: int, seeds: Optional[int],
-             min_discs: Optional[int], max_discs: Optional[int]) -> None: ...
-def make_map(folder: str, threads: int,
-             progress: Optional[Callable[[int, int, int], object]]) -> tuple[str, str, str]: ...
-def crossing(folder: Optional[str], parameters: dict[str, Any], min_discs: int, max_discs: int,
-             tolerance: float, rate: str, threads: int, command: str, progress: Optional[Callable[[str, float], object]],
-             min_periods: int = 50) -> tuple[str, str]: ...
-def over_replicates(means: npt.ArrayLike, errors: npt.ArrayLike, effective: npt.ArrayLike, weights: Sequence[float],
-                    directions: bool) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats]: ...
+def write_map_plan(
+    folder: str,
+    x: dict[str, Any],
+    y: dict[str, Any],
+    quantity: str,
+    rate: str,
+    level: float,
+    change: Optional[float],
+    tolerance: float,
+    steps: int,
+    seeds: int,
+    min_discs: int,
+    max_discs: int,
+    parameters: dict[str, Any],
+) -> None: ...
+def grow_map(
+    folder: str,
+    x: dict[str, Any],
+    y: dict[str, Any],
+    steps: int,
+    seeds: Optional[int],
+    min_discs: Optional[int],
+    max_discs: Optional[int],
+) -> None: ...
+def make_map(
+    folder: str, threads: int, progress: Optional[Callable[[int, int, int], object]]
+) -> tuple[str, str, str]: ...
+def crossing(
+    folder: Optional[str],
+    parameters: dict[str, Any],
+    min_discs: int,
+    max_discs: int,
+    tolerance: float,
+    rate: str,
+    threads: int,
+    command: str,
+    progress: Optional[Callable[[str, float], object]],
+    min_periods: int = 50,
+) -> tuple[str, str]: ...
+def over_replicates(
+    means: npt.ArrayLike,
+    errors: npt.ArrayLike,
+    effective: npt.ArrayLike,
+    weights: Sequence[float],
+    directions: bool,
+) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats]: ...
 def is_direction(name: str) -> bool: ...
 def replicate_weights(periods: Sequence[float], by_time: bool) -> list[float]: ...
+
 min_averaged_periods: float
+
 def read_own_points(file: str, period: Optional[float]) -> list[tuple[float, float, float]]: ...
-def compare_curves(parameters: list[float], curves: list[list[tuple[float, float, float]]],
-                   measured: list[tuple[float, float, float]]) -> tuple[
-                       list[tuple[float, float, float]], list[float],
-                       Optional[tuple[float, float, float, float, int, bool]]]: ...
-def zero_crossing(discs: Sequence[float], means: Sequence[float], errors: Sequence[float]) -> dict[str, Any]: ...
+def compare_curves(
+    parameters: list[float],
+    curves: list[list[tuple[float, float, float]]],
+    measured: list[tuple[float, float, float]],
+) -> tuple[
+    list[tuple[float, float, float]],
+    list[float],
+    Optional[tuple[float, float, float, float, int, bool]],
+]: ...
+def zero_crossing(
+    discs: Sequence[float], means: Sequence[float], errors: Sequence[float]
+) -> dict[str, Any]: ...
 def estimate_of_series(values: Sequence[float]) -> tuple[float, float, float, float]: ...
 def checksum(text: str) -> str: ...

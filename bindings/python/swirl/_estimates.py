@@ -19,11 +19,10 @@ _TYPES_OF_NUMBERS = "eEfFgG"
 
 
 def with_error(mean: float, error: float = math.nan) -> str:
-    """"−0.037 ± 0.001" as reports print it: as many digits as the error supports.
+    """ "−0.037 ± 0.001" as reports print it: as many digits as the error supports.
 
-    The error has two digits if it begins with 1, otherwise one. Without an error the mean has three digits, and a
-    mean that is not available is "n/a".
-    """
+    The error has two digits if it begins with 1, otherwise one. Without an error the mean has three
+    digits, and a mean that is not available is "n/a"."""
     return _engine.with_error(mean, error)
 
 
@@ -40,13 +39,13 @@ class Estimate:
         2 * estimate, estimate / 3, estimate - 0.1  # exact numbers
         a - b, a + b                                # estimates of independent runs
 
-    The errors of two estimates of one run are correlated, so their sum or difference raises ValueError. Runs are one
-    run if they differ only in their length. A product or quotient of two estimates raises TypeError.
+    The errors of two estimates of one run are correlated, so their sum or difference raises
+    ValueError. Runs are one run if they differ only in their length. A product or quotient of two
+    estimates raises TypeError.
 
-    A value that is not available is NaN, such as an error from too few blocks. `unit` is in terms of
-    docs/explanation/physics.md: r radius of a disc, m its mass, v speed of the container, Ω = 2π/T; "1" if there is
-    no unit.
-    """
+    A value that is not available is NaN, such as an error from too few blocks. `unit` is in terms
+    of docs/explanation/physics.md: r radius of a disc, m its mass, v speed of the container, Ω =
+    2π/T; "1" if there is no unit."""
 
     mean: float
     error: float = math.nan
@@ -58,7 +57,9 @@ class Estimate:
     # numpy's numbers leave the arithmetic to this class.
     __array_ufunc__ = None
     # What the estimate was computed from. Estimates that share a source are correlated.
-    _sources: frozenset[str] = dataclasses.field(default_factory=_new_source, repr=False, compare=False)
+    _sources: frozenset[str] = dataclasses.field(
+        default_factory=_new_source, repr=False, compare=False
+    )
 
     def __float__(self) -> float:
         return self.mean
@@ -71,13 +72,16 @@ class Estimate:
         return self._in_units(with_error(self.mean, self.error))
 
     def __format__(self, spec: str) -> str:
-        """A format of numbers, such as ".3f", applies to the mean and to the error, any other to the text."""
+        """A format of numbers, such as ".3f", applies to the mean and to the error, any other to
+        the text."""
         if spec[-1:] not in tuple(_TYPES_OF_NUMBERS):
             return format(str(self), spec)
         if not math.isfinite(self.mean):
             return self._in_units("n/a")
         value = format(self.mean, spec).replace("-", "−", 1)
-        return self._in_units(f"{value} ± {format(self.error, spec)}" if math.isfinite(self.error) else value)
+        return self._in_units(
+            f"{value} ± {format(self.error, spec)}" if math.isfinite(self.error) else value
+        )
 
     def _in_units(self, value: str) -> str:
         return value if self.unit in ("1", "") else f"{value} {self.unit}"
@@ -130,15 +134,24 @@ class Estimate:
 
     def _plus(self, other: "Estimate", sign: float) -> "Estimate":
         if self.unit != other.unit:
-            raise ValueError(f"one estimate is in units of {self.unit}, the other in units of {other.unit}.")
+            raise ValueError(
+                f"one estimate is in units of {self.unit}, the other in units of {other.unit}."
+            )
         if self._sources & other._sources:
-            raise ValueError("both estimates are of the same run, so their errors are correlated.\n"
-                             "hint: measure the sum or the difference in each period, with a measurement of your own "
-                             "(docs/how-to/own_measurement.md); or use other seeds.")
+            raise ValueError(
+                "both estimates are of the same run, so their errors are correlated.\n"
+                "hint: measure the sum or the difference in each period, with a measurement of "
+                "your own "
+                "(docs/how-to/own_measurement.md); or use other seeds."
+            )
         return dataclasses.replace(
             self._derived(self.mean + sign * other.mean, math.hypot(self.error, other.error)),
-            effective_samples=min(self.effective_samples, other.effective_samples, key=_or_infinity),
-            blocks=min(self.blocks, other.blocks), _sources=self._sources | other._sources)
+            effective_samples=min(
+                self.effective_samples, other.effective_samples, key=_or_infinity
+            ),
+            blocks=min(self.blocks, other.blocks),
+            _sources=self._sources | other._sources,
+        )
 
     def _derived(self, mean: float, error: float) -> "Estimate":
         # The description and the details are those of the measured number only.
@@ -154,16 +167,18 @@ def _is_exact(value: object) -> bool:
 
 
 def _not_linear(what: str, of_means: str) -> TypeError:
-    return TypeError(f"the {what} of two estimates has an error that depends on how they are distributed.\n"
-                     f"hint: measure the {what} in each period with a measurement of your own "
-                     f"(docs/how-to/own_measurement.md), or use the means: {of_means}.")
+    return TypeError(
+        f"the {what} of two estimates has an error that depends on how they are distributed.\n"
+        f"hint: measure the {what} in each period with a measurement of your own "
+        f"(docs/how-to/own_measurement.md), or use the means: {of_means}."
+    )
 
 
 @dataclasses.dataclass(frozen=True)
 class ArrayEstimate:
     """An array of means with their standard errors from blocks. All arrays have the same shape.
 
-        mean, error = estimate
+    mean, error = estimate
     """
 
     mean: FloatArray

@@ -19,7 +19,8 @@ _BUILT = os.path.join("build", "lab", "index.html")
 
 
 class Lab:
-    """The browser page with a simulation, as one self-contained HTML document. A notebook shows it in a frame.
+    """The browser page with a simulation, as one self-contained HTML document. A notebook shows it
+    in a frame.
 
     `html` is the document; save() writes it to a file, which runs without installation and network.
     """
@@ -37,29 +38,39 @@ class Lab:
 
     def _repr_html_(self) -> str:
         # The frame has an origin of its own, so the page has no access to the notebook.
-        return (f'<iframe srcdoc="{html.escape(self.html)}" title="swirl" width="100%" height="{self.height}" '
-                'sandbox="allow-scripts allow-downloads allow-modals" style="border: 0"></iframe>')
+        return (
+            f'<iframe srcdoc="{html.escape(self.html)}" title="swirl" width="100%" '
+            f'height="{self.height}" '
+            'sandbox="allow-scripts allow-downloads allow-modals" style="border: 0"></iframe>'
+        )
 
     def __repr__(self) -> str:
         return f"<swirl.Lab: the browser page, {len(self.html) // 1000} kB>"
 
 
-def lab(*, page: Optional[PathName] = None, height: int = 640, lang: Optional[str] = None,
-        **parameters: Value) -> Lab:
+def lab(
+    *,
+    page: Optional[PathName] = None,
+    height: int = 640,
+    lang: Optional[str] = None,
+    **parameters: Value,
+) -> Lab:
     """Shows the browser page in a notebook, with these parameters of a run.
 
         swirl.lab(discs=48, mu=0.3)
 
-    There is no server: the page is part of the notebook. It comes from the file `page`, from the environment
-    variable SWIRL_LAB, or from the folder of the sources, where `./swirl lab` builds it.
-    `height` is that of the frame in pixels, `lang` "en" or "de".
-    """
+    There is no server: the page is part of the notebook. It comes from the file `page`, from the
+    environment variable SWIRL_LAB, or from the folder of the sources, where `./swirl lab` builds
+    it. `height` is that of the frame in pixels, `lang` "en" or "de"."""
     config = json.loads(_engine.resolve(parameters))  # rejects what a run would reject
     path = file_name("page", _path_of(page))
     with open(path, encoding="utf-8") as opened:
         document = opened.read()
-    values = {name: config[name] if hasattr(value, "dtype") else _text_of(value)
-              for name, value in parameters.items() if value is not None}
+    values = {
+        name: config[name] if hasattr(value, "dtype") else _text_of(value)
+        for name, value in parameters.items()
+        if value is not None
+    }
     query = urlencode({**values, **({"lang": lang} if lang else {})})
     start = f'<meta name="swirl-start" content="{html.escape(query)}">'
     # A page that `swirl lab --out` wrote with parameters has such an entry, which is replaced.
@@ -75,8 +86,11 @@ def parameters_of(config: Mapping[str, Any]) -> dict[str, Value]:
     """The parameters of a run from its config, without its length and what follows from others."""
     standard = json.loads(_engine.resolve({}))
     settable = {row[0] for row in _engine.parameters()} - {"events", "periods", "warmup", "speed"}
-    found = {name: value for name, value in config.items()
-             if name in settable and value is not None and value != standard.get(name)}
+    found = {
+        name: value
+        for name, value in config.items()
+        if name in settable and value is not None and value != standard.get(name)
+    }
     if "mixture" in found:
         mixture = found["mixture"]
         number = f"{mixture['percent']}%" if "percent" in mixture else mixture["count"]
@@ -99,6 +113,8 @@ def _path_of(page: Optional[PathName]) -> PathName:
     for path in (os.path.join(package, "lab.html"), os.path.join(sources, _BUILT)):
         if exists(path):
             return path
-    raise FileNotFoundError("the browser page is not built.\n"
-                            "hint: run ./swirl lab --out laboratory.html in the folder of the sources, and use "
-                            'swirl.lab(page="laboratory.html").')
+    raise FileNotFoundError(
+        "the browser page is not built.\n"
+        "hint: run ./swirl lab --out laboratory.html in the folder of the sources, and use "
+        'swirl.lab(page="laboratory.html").'
+    )

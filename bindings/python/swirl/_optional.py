@@ -13,5 +13,8 @@ def optional(module: str, caller: str) -> Any:
         return importlib.import_module(module)
     except ImportError as error:
         missing = getattr(error, "name", None) or package
-        raise ImportError(f"{caller} needs the package {package}, which cannot be imported: {error}.\n"
-                          f"hint: pip install {missing.partition('.')[0]}", name=missing) from error
+        raise ImportError(
+            f"{caller} needs the package {package}, which cannot be imported: {error}.\n"
+            f"hint: pip install {missing.partition('.')[0]}",
+            name=missing,
+        ) from error

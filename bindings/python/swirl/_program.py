@@ -13,6 +13,7 @@ from ._files import exists
 def program() -> Optional[str]:
     """The program in this package, or the first on the PATH that is not this command."""
     import swirl
+
     for folder in swirl.__path__:
         bundled = os.path.join(folder, "_program", "bin", "swirl")
         if exists(bundled):

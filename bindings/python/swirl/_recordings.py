@@ -37,9 +37,12 @@ class Recording:
         return len(self._frames)
 
     @overload
-    def __getitem__(self, k: int) -> _engine.Snapshot: ...
+    def __getitem__(self, k: int) -> _engine.Snapshot:
+        ...
+
     @overload
-    def __getitem__(self, k: slice) -> _engine.Frames: ...
+    def __getitem__(self, k: slice) -> _engine.Frames:
+        ...
 
     def __getitem__(self, k: Union[int, slice]) -> Union[_engine.Snapshot, _engine.Frames]:
         if isinstance(k, slice):
@@ -74,9 +77,8 @@ class Trajectory(Recording):
         t = swirl.Trajectory("frames.h5")
         t[0].position, t[10:20].position, t.parameters, t.complete
 
-    Of a recording that is still being written (NAME.partial) it has the frames that were in the file
-    when it was opened. Open it again to see later ones.
-    """
+    Of a recording that is still being written (NAME.partial) it has the frames that were in the
+    file when it was opened. Open it again to see later ones."""
 
     __slots__ = ("file",)
 
@@ -107,66 +109,100 @@ _COLUMNS = ("frame", "particle", "x", "y")
 
 
 def _column(table: Any, name: str) -> npt.NDArray[Any]:
-    """A column of a table of tracks. It may have any type of numbers, such as those of pandas with missing values."""
+    """A column of a table of tracks. It may have any type of numbers, such as those of pandas with
+    missing values."""
     try:
         column = np.asarray(table[name])
     except (KeyError, IndexError, TypeError, ValueError):
         there = [str(each) for each in table] if hasattr(table, "keys") else []
         renamed = [each for each in there if each.strip().lower() == name]
-        hint = (f"\nhint: rename '{renamed[0]}' to '{name}'." if renamed else
-                f"\nhint: it has {_engine.shortened(', '.join(there))}." if there else "")
-        raise ValueError(f"the tracks need the columns frame, particle, x and y, but there is no {name}.{hint}") from None
+        hint = (
+            f"\nhint: rename '{renamed[0]}' to '{name}'."
+            if renamed
+            else f"\nhint: it has {_engine.shortened(', '.join(there))}."
+            if there
+            else ""
+        )
+        raise ValueError(
+            f"the tracks need the columns frame, particle, x and y, but there is no {name}.{hint}"
+        ) from None
     if column.ndim != 1:
-        raise TypeError(f"column {name} of the tracks must hold numbers, but it has {column.ndim} dimensions.")
+        raise TypeError(
+            f"column {name} of the tracks must hold numbers, but it has {column.ndim} dimensions."
+        )
     if column.dtype.kind in "iuf":
         return column
     for row, value in enumerate(column):
         if not isinstance(value, numbers.Real) or isinstance(value, (bool, np.bool_)):
-            raise TypeError(f"column {name} of the tracks must hold numbers, but row {row} has {shown(value)}.")
+            raise TypeError(
+                f"column {name} of the tracks must hold numbers, but row {row} has {shown(value)}."
+            )
     return column.astype(float)
 
 
 class Tracks(Recording):
     """Tracks of a camera: a table of trackpy (columns frame, particle, x, y; pixels, y downwards).
 
-    table: a pandas DataFrame, or any mapping with these columns. omega: angular velocity of the swirl,
-    radians per unit of time. container_radius, amplitude: in disc radii. scale: pixels per disc radius.
-    camera_fps: frames per unit of time. centre: the swirl centre in pixels. phase: of the container at
-    frame 0, in degrees counter-clockwise from the right in the image. clockwise: the swirl ran clockwise
-    in the image. max_invalid: the largest share of frames with discs outside the container or overlapping.
+    table: a pandas DataFrame, or any mapping with these columns. omega: angular velocity of the
+    swirl, radians per unit of time. container_radius, amplitude: in disc radii. scale: pixels per
+    disc radius. camera_fps: frames per unit of time. centre: the swirl centre in pixels. phase: of
+    the container at frame 0, in degrees counter-clockwise from the right in the image. clockwise:
+    the swirl ran clockwise in the image. max_invalid: the largest share of frames with discs
+    outside the container or overlapping.
 
     Short gaps are filled. Positions are smoothed according to their noise, and velocities are
-    derivatives of the smoothed positions (track/tables/track_smoothing.hpp). With fewer than a hundred
-    frames per period, positions stay as they are, and velocities are differences between frames
-    (track/tables/tracks.hpp).
+    derivatives of the smoothed positions (track/tables/track_smoothing.hpp). With fewer than a
+    hundred frames per period, positions stay as they are, and velocities are differences between
+    frames (track/tables/tracks.hpp).
 
-    Raises ValueError or TypeError for wrong arguments, and swirl.Failure with the likely cause if more
-    frames contradict these arguments.
-    """
+    Raises ValueError or TypeError for wrong arguments, and swirl.Failure with the likely cause if
+    more frames contradict these arguments."""
 
     __slots__ = ()
 
-    def __init__(self, table: Any, *, omega: float, container_radius: float, amplitude: float = 0.0,
-                 camera_fps: float = 1.0, scale: float = 1.0,
-                 centre: tuple[float, float] = (0.0, 0.0), phase: float = 0.0,
-                 clockwise: bool = False, max_invalid: float = 0.05) -> None:
-        for name, value, minimum in (("omega", omega, 1e-12), ("container_radius", container_radius, 1e-12),
-                                   ("amplitude", amplitude, 0.0), ("camera_fps", camera_fps, 1e-12),
-                                   ("scale", scale, 1e-12), ("phase", phase, -1e9),
-                                   ("max_invalid", max_invalid, 0.0)):
+    def __init__(
+        self,
+        table: Any,
+        *,
+        omega: float,
+        container_radius: float,
+        amplitude: float = 0.0,
+        camera_fps: float = 1.0,
+        scale: float = 1.0,
+        centre: tuple[float, float] = (0.0, 0.0),
+        phase: float = 0.0,
+        clockwise: bool = False,
+        max_invalid: float = 0.05,
+    ) -> None:
+        for name, value, minimum in (
+            ("omega", omega, 1e-12),
+            ("container_radius", container_radius, 1e-12),
+            ("amplitude", amplitude, 0.0),
+            ("camera_fps", camera_fps, 1e-12),
+            ("scale", scale, 1e-12),
+            ("phase", phase, -1e9),
+            ("max_invalid", max_invalid, 0.0),
+        ):
             if isinstance(value, bool) or not hasattr(value, "__float__"):
                 raise TypeError(f"{name} is {shown(value)}, but it must be a number.")
             if not minimum <= float(value) < math.inf:
-                raise ValueError(f"{name} is {value}, but it must be a number of at least {minimum:g}.")
+                raise ValueError(
+                    f"{name} is {value}, but it must be a number of at least {minimum:g}."
+                )
         if isinstance(table, (str, bytes)) or not hasattr(table, "__getitem__"):
-            raise TypeError(f"table is {shown(table)}, but it must be a DataFrame or a mapping with the columns frame, "
-                            "particle, x and y.\nhint: read a file with swirl.Tracks.read().")
+            raise TypeError(
+                f"table is {shown(table)}, but it must be a DataFrame or a mapping with the "
+                "columns frame, "
+                "particle, x and y.\nhint: read a file with swirl.Tracks.read()."
+            )
         columns = {name: _column(table, name) for name in _COLUMNS}
         for name in ("frame", "particle"):
             wrong = np.flatnonzero(columns[name] != np.floor(columns[name]))
             if wrong.size:
-                raise ValueError(f"column {name} of the tracks must hold whole numbers, but row {wrong[0]} has "
-                                 f"{columns[name][wrong[0]]}.")
+                raise ValueError(
+                    f"column {name} of the tracks must hold whole numbers, but row {wrong[0]} has "
+                    f"{columns[name][wrong[0]]}."
+                )
         if not isinstance(clockwise, (bool, np.bool_)):
             raise TypeError(f"clockwise is {shown(clockwise)}, but it must be True or False.")
         try:
@@ -180,13 +216,25 @@ class Tracks(Recording):
         time = np.asarray(table["time"], float) if is_timed else np.empty(0)
         order = np.lexsort((columns["particle"], columns["frame"]))
         self._frames = _engine.Recording.tracks(
-            columns["frame"][order], columns["particle"][order], columns["x"][order],
-            columns["y"][order], radius[order] if radius.size else radius,
+            columns["frame"][order],
+            columns["particle"][order],
+            columns["x"][order],
+            columns["y"][order],
+            radius[order] if radius.size else radius,
             time[order] if time.size else time,
-            {"omega": float(omega), "container_radius": float(container_radius),
-             "amplitude": float(amplitude), "camera_fps": float(camera_fps), "scale": float(scale),
-             "phase": float(phase), "centre_x": x0, "centre_y": y0, "clockwise": bool(clockwise)},
-            float(max_invalid))
+            {
+                "omega": float(omega),
+                "container_radius": float(container_radius),
+                "amplitude": float(amplitude),
+                "camera_fps": float(camera_fps),
+                "scale": float(scale),
+                "phase": float(phase),
+                "centre_x": x0,
+                "centre_y": y0,
+                "clockwise": bool(clockwise),
+            },
+            float(max_invalid),
+        )
 
     @classmethod
     def read(cls, file: PathName, **scale: Any) -> "Tracks":
@@ -228,30 +276,38 @@ def _camera(file: pathlib.Path) -> dict[str, Any]:
     numbers = ("omega", "container_radius", "amplitude", "camera_fps", "scale", "phase")
     try:
         found = json.loads(file.read_text(encoding="utf-8"), object_pairs_hook=_unique)["camera"]
-        camera = {argument: found[argument.replace("_", "-")]
-                  for argument in (*numbers, "centre", "clockwise")}
+        camera = {
+            argument: found[argument.replace("_", "-")]
+            for argument in (*numbers, "centre", "clockwise")
+        }
         for name in numbers:
             if type(camera[name]) not in (int, float):
                 raise TypeError(f"{name} is {shown(camera[name])}, but it must be a number")
         centre = camera["centre"]
-        if type(centre) is not list or [type(part) in (int, float) for part in centre] != [True, True]:
+        if type(centre) is not list or [type(part) in (int, float) for part in centre] != [
+            True,
+            True,
+        ]:
             raise TypeError(f"centre is {shown(centre)}, but it must be two numbers")
         if type(camera["clockwise"]) is not bool:
-            raise TypeError(f"clockwise is {shown(camera['clockwise'])}, but it must be true or false")
+            raise TypeError(
+                f"clockwise is {shown(camera['clockwise'])}, but it must be true or false"
+            )
         return camera
     except (ValueError, KeyError, TypeError, RecursionError) as wrong:
-        raise _engine.Failure(f"'{file}' is not a valid file of `swirl track`: {wrong}.\n"
-                              "hint: remove it, or track the video again.") from None
+        raise _engine.Failure(
+            f"'{file}' is not a valid file of `swirl track`: {wrong}.\n"
+            "hint: remove it, or track the video again."
+        ) from None
 
 
 @dataclasses.dataclass(frozen=True)
 class Analysis:
     """Rotation and measurements of a recording, with the names of Result.
 
-    `rotation.mean_by_time` and `rotation.rigid_by_time` are averages over `frames` frames. A recording has
-    no events, so the averages by event are NaN. `warnings` names values that are NaN because there are
-    too few frames per period.
-    """
+    `rotation.mean_by_time` and `rotation.rigid_by_time` are averages over `frames` frames. A
+    recording has no events, so the averages by event are NaN. `warnings` names values that are NaN
+    because there are too few frames per period."""
 
     rotation: Rotation
     frames: int
@@ -270,8 +326,10 @@ class Analysis:
         return numbers_to_xarray([*self.rotation.rows(), *rows_of(self.measured)])
 
     def plot(self, what: Optional[str] = None, *, ax: Any = None) -> Any:
-        """Draws a measurement or one of its tables; returns the axes. The default is the first one."""
+        """Draws a measurement or one of its tables; returns the axes. The default is the first
+        one."""
         from . import plot
+
         return plot.result(self, what, ax=ax)
 
 
@@ -287,40 +345,52 @@ class _Sampled(Recording):
 class Columns(Protocol):
     """A table of tracks: a pandas DataFrame or a mapping."""
 
-    def __getitem__(self, column: str, /) -> Any: ...
+    def __getitem__(self, column: str, /) -> Any:
+        ...
 
 
-def analyse(recording: Union[Recording, _engine.Frames, Columns], measure: Optional[Measure] = None, *,
-            warmup: float = 0.0, **camera: Any) -> Analysis:
+def analyse(
+    recording: Union[Recording, _engine.Frames, Columns],
+    measure: Optional[Measure] = None,
+    *,
+    warmup: float = 0.0,
+    **camera: Any,
+) -> Analysis:
     """Measures a recording, like `swirl measure`.
 
         swirl.analyse(swirl.Trajectory("frames.h5"), measure=["density"])
         swirl.analyse(table, omega=3.1, container_radius=8.5, camera_fps=25, scale=40.0)
 
     recording: a Trajectory, Tracks, or Frames from Simulation.sample(), also with custom discs or a
-    custom path; or a table of tracks, a DataFrame with the columns frame, particle, x and y. camera: the
-    arguments of swirl.Tracks, for a table only. measure: as for swirl.run(); "all" selects every
-    measurement that frames allow. warmup: periods at the start that are ignored. Each period is one
-    block of the error estimate.
+    custom path; or a table of tracks, a DataFrame with the columns frame, particle, x and y.
+    camera: the arguments of swirl.Tracks, for a table only. measure: as for swirl.run(); "all"
+    selects every measurement that frames allow. warmup: periods at the start that are ignored. Each
+    period is one block of the error estimate.
 
-    Raises ValueError for a measurement that the recording does not allow, and TypeError if `recording`
-    is not a recording.
-    """
+    Raises ValueError for a measurement that the recording does not allow, and TypeError if
+    `recording` is not a recording."""
     if _is_table(recording):
         recording = _tracks_of(recording, camera)
     elif camera:
-        raise TypeError(f"{next(iter(camera))} is given, but only a table of tracks needs it: a recording has its own "
-                        "scale.\nhint: use swirl.analyse(recording, measure=..., warmup=...).")
+        raise TypeError(
+            f"{next(iter(camera))} is given, but only a table of tracks needs it: a recording has "
+            "its own "
+            "scale.\nhint: use swirl.analyse(recording, measure=..., warmup=...)."
+        )
     if isinstance(recording, _engine.Frames):
         recording = _Sampled(recording)
     if not isinstance(recording, Recording):
-        raise TypeError(f"recording is {shown(recording)}, but it must be a swirl.Trajectory, "
-                        "swirl.Tracks or swirl.Frames.")
+        raise TypeError(
+            f"recording is {shown(recording)}, but it must be a swirl.Trajectory, "
+            "swirl.Tracks or swirl.Frames."
+        )
     if isinstance(warmup, (bool, str)) or not hasattr(warmup, "__float__"):
         raise TypeError(f"warmup is {shown(warmup)}, but it must be a number of periods.")
     names, custom = split_measure(measure)
     is_all = measure == "all"
-    reports, mean_by_time, rigid, used, remark = recording._frames.analyse(names, is_all, float(warmup))
+    reports, mean_by_time, rigid, used, remark = recording._frames.analyse(
+        names, is_all, float(warmup)
+    )
     source = _source_of(recording)
     found = measured_of(reports, source)
     if custom:
@@ -330,27 +400,40 @@ def analyse(recording: Union[Recording, _engine.Frames, Columns], measure: Optio
         found.update(blocks.results(source))
     sources = frozenset((source,))
     no_events = Estimate(math.nan, unit="Ω", _sources=sources)
-    rotation = Rotation(no_events, Estimate(*mean_by_time, unit="Ω", _sources=sources), no_events,
-                        Estimate(*rigid, unit="Ω", _sources=sources))
+    rotation = Rotation(
+        no_events,
+        Estimate(*mean_by_time, unit="Ω", _sources=sources),
+        no_events,
+        Estimate(*rigid, unit="Ω", _sources=sources),
+    )
     return Analysis(rotation, used, found, (remark,) if remark else ())
 
 
 def _is_table(recording: object) -> bool:
     """True for a mapping or a DataFrame."""
-    return isinstance(recording, Mapping) or hasattr(recording, "columns") and hasattr(recording, "__getitem__")
+    return (
+        isinstance(recording, Mapping)
+        or hasattr(recording, "columns")
+        and hasattr(recording, "__getitem__")
+    )
 
 
 def _tracks_of(table: Any, camera: dict[str, Any]) -> Tracks:
     missing = [name for name in ("omega", "container_radius") if name not in camera]
     if missing:
-        raise TypeError(f"a table of tracks needs {' and '.join(missing)}.\n"
-                        "hint: use swirl.analyse(table, omega=..., container_radius=...); help(swirl.Tracks) explains "
-                        "all arguments.")
+        raise TypeError(
+            f"a table of tracks needs {' and '.join(missing)}.\n"
+            "hint: use swirl.analyse(table, omega=..., container_radius=...); help(swirl.Tracks) "
+            "explains "
+            "all arguments."
+        )
     arguments = inspect.signature(Tracks).parameters
     unknown = next((name for name in camera if name not in arguments or name == "table"), None)
     if unknown is not None:
-        raise TypeError(f"there is no argument '{_engine.shortened(unknown)}'.\n"
-                        f"hint: a table of tracks takes {', '.join(list(arguments)[1:])}.")
+        raise TypeError(
+            f"there is no argument '{_engine.shortened(unknown)}'.\n"
+            f"hint: a table of tracks takes {', '.join(list(arguments)[1:])}."
+        )
     return Tracks(table, **camera)
 
 

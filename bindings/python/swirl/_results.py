@@ -36,8 +36,9 @@ class Table:
 
     __slots__ = ("name", "description", "units", "_values", "_columns", "__weakref__")
 
-    def __init__(self, name: str, description: str, columns: list[tuple[str, str]],
-                 values: FloatArray) -> None:
+    def __init__(
+        self, name: str, description: str, columns: list[tuple[str, str]], values: FloatArray
+    ) -> None:
         self.name = name
         self.description = description
         self.units: Mapping[str, str] = MappingProxyType(dict(columns))
@@ -63,8 +64,10 @@ class Table:
 
     def __getitem__(self, column: str) -> FloatArray:
         if column not in self._columns:
-            raise KeyError(f"the table of {self.name} has no column '{column}'; "
-                           f"it has {', '.join(self._columns)}.")
+            raise KeyError(
+                f"the table of {self.name} has no column '{column}'; "
+                f"it has {', '.join(self._columns)}."
+            )
         values = self._column(column)
         if not self._is_map():
             return values
@@ -94,19 +97,27 @@ class Table:
         return frame
 
     def to_xarray(self) -> Any:
-        """The table as an xarray Dataset: each column that is not an axis is a variable with its unit."""
+        """The table as an xarray Dataset: each column that is not an axis is a variable with its
+        unit."""
         xarray = optional("xarray", "to_xarray()")
         axes = self.axes
         variables = {
             name: (list(axes), np.array(self[name]), {"units": self.units[name]})
-            for name in self._columns if name not in axes}
-        coordinates = {name: (name, values, {"units": self.units[name]})
-                       for name, values in axes.items()}
-        return xarray.Dataset(variables, coords=coordinates, attrs={"description": self.description})
+            for name in self._columns
+            if name not in axes
+        }
+        coordinates = {
+            name: (name, values, {"units": self.units[name]}) for name, values in axes.items()
+        }
+        return xarray.Dataset(
+            variables, coords=coordinates, attrs={"description": self.description}
+        )
 
     def plot(self, column: Optional[str] = None, *, ax: Any = None) -> Any:
-        """Draws a column, a map in colours or a line with its error; returns the axes. See swirl.plot.table()."""
+        """Draws a column, a map in colours or a line with its error; returns the axes. See
+        swirl.plot.table()."""
         from . import plot
+
         return plot.table(self, column, ax=ax)
 
     def _repr_html_(self) -> str:
@@ -122,19 +133,24 @@ class Table:
         x, y = np.unique(self._column("x")), np.unique(self._column("y"))
         return len(x) * len(y) == len(self) and bool(
             np.all(self._column("x").reshape(len(y), len(x)) == x)
-            and np.all(self._column("y").reshape(len(y), len(x)) == y[:, None]))
+            and np.all(self._column("y").reshape(len(y), len(x)) == y[:, None])
+        )
 
 
 class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
     """The results of one measurement: its numbers and tables by name.
 
-    If its only table has no name, indexing gives the table's columns: measured["density"]["by_time"].
-    """
+    If its only table has no name, indexing gives the table's columns:
+    measured["density"]["by_time"]."""
 
     __slots__ = ("name", "rows", "tables", "__weakref__")
 
-    def __init__(self, name: str, rows: Mapping[str, Union[Estimate, ArrayEstimate]],
-                 tables: Mapping[str, Table]) -> None:
+    def __init__(
+        self,
+        name: str,
+        rows: Mapping[str, Union[Estimate, ArrayEstimate]],
+        tables: Mapping[str, Table],
+    ) -> None:
         self.name = name
         self.rows: Mapping[str, Union[Estimate, ArrayEstimate]] = MappingProxyType(dict(rows))
         self.tables: Mapping[str, Table] = MappingProxyType(dict(tables))
@@ -174,7 +190,8 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
         return sum(1 for _ in self)
 
     def to_pandas(self) -> Any:
-        """The numbers as a pandas DataFrame, one row per number. The tables have a to_pandas() of their own."""
+        """The numbers as a pandas DataFrame, one row per number. The tables have a to_pandas() of
+        their own."""
         return numbers_to_pandas(rows_of({self.name: self}))
 
     def to_xarray(self) -> Any:
@@ -184,28 +201,32 @@ class Measured(Mapping[str, Union[Estimate, ArrayEstimate, Table]]):
     def plot(self, column: Optional[str] = None, *, ax: Any = None) -> Any:
         """Draws the first table; returns the axes. See swirl.plot.measured()."""
         from . import plot
+
         return plot.measured(self, column, ax=ax)
 
     def __repr__(self) -> str:
         return f"<{self.name}: {', '.join(self)}>"
 
     def __str__(self) -> str:
-        return "\n".join([f"{self.name}.{name}  {value}" for name, value in self.rows.items()] +
-                         [repr(table) for table in self.tables.values()])
+        return "\n".join(
+            [f"{self.name}.{name}  {value}" for name, value in self.rows.items()]
+            + [repr(table) for table in self.tables.values()]
+        )
 
 
 class Series(Mapping[str, FloatArray]):
-    """The averages of every period of a run: `series["mean_by_time"]` is a column, with one value per period.
+    """The averages of every period of a run: `series["mean_by_time"]` is a column, with one value
+    per period.
 
     Columns: period, counted (1 after the warm-up), the rotation rates mean_by_event, mean_by_time,
-    rigid_by_event and rigid_by_time, spin, energy, centre_x, centre_y, events; "ramp.mu" and so on for
-    ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN.
-    """
+    rigid_by_event and rigid_by_time, spin, energy, centre_x, centre_y, events; "ramp.mu" and so on
+    for ramps; "slip.cluster" and so on for the rows of `measure`. A missing value is NaN."""
 
     __slots__ = ("units", "descriptions", "_values", "_names", "__weakref__")
 
-    def __init__(self, names: list[str], units: list[str], descriptions: list[str],
-                 values: FloatArray) -> None:
+    def __init__(
+        self, names: list[str], units: list[str], descriptions: list[str], values: FloatArray
+    ) -> None:
         values.setflags(write=False)
         self._values = values
         self._names = names
@@ -213,8 +234,12 @@ class Series(Mapping[str, FloatArray]):
         self.descriptions: Mapping[str, str] = MappingProxyType(dict(zip(names, descriptions)))
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Series, (self._names, list(self.units.values()), list(self.descriptions.values()),
-                        self._values)
+        return Series, (
+            self._names,
+            list(self.units.values()),
+            list(self.descriptions.values()),
+            self._values,
+        )
 
     def __getitem__(self, name: str) -> FloatArray:
         if name not in self._names:
@@ -240,16 +265,24 @@ class Series(Mapping[str, FloatArray]):
         return frame
 
     def to_xarray(self) -> Any:
-        """The series as an xarray Dataset along the dimension period; each column is a variable with its unit."""
+        """The series as an xarray Dataset along the dimension period; each column is a variable
+        with its unit."""
         xarray = optional("xarray", "to_xarray()")
-        variables = {name: ("period", np.array(self[name]), {"units": self.units[name],
-                                                             "description": self.descriptions[name]})
-                     for name in self._names if name != "period"}
+        variables = {
+            name: (
+                "period",
+                np.array(self[name]),
+                {"units": self.units[name], "description": self.descriptions[name]},
+            )
+            for name in self._names
+            if name != "period"
+        }
         return xarray.Dataset(variables, {"period": np.array(self["period"])})
 
     def plot(self, column: str = "mean_by_time", *, ax: Any = None) -> Any:
         """Draws a column against the period; returns the axes. See swirl.plot.series()."""
         from . import plot
+
         return plot.series(self, column, ax=ax)
 
     def _repr_html_(self) -> str:
@@ -264,21 +297,28 @@ def measured_of(reports: list[Report], source: str) -> dict[str, Measured]:
     all_found = {}
     for measurement, rows, tables in reports:
         estimates = {
-            name: Estimate(mean, error, effective, blocks, unit, description, details, frozenset((source,)))
-            for name, unit, description, mean, error, effective, blocks, details, _ in rows}
-        made = {name: Table(f"{measurement}.{name}" if name else measurement, description, columns,
-                            values) for name, description, columns, values in tables}
+            name: Estimate(
+                mean, error, effective, blocks, unit, description, details, frozenset((source,))
+            )
+            for name, unit, description, mean, error, effective, blocks, details, _ in rows
+        }
+        made = {
+            name: Table(
+                f"{measurement}.{name}" if name else measurement, description, columns, values
+            )
+            for name, description, columns, values in tables
+        }
         all_found[measurement] = Measured(measurement, estimates, made)
     return all_found
 
 
 @dataclasses.dataclass(frozen=True)
 class Rotation:
-    """The cluster's rotation rate ϖ in units of Ω in the lab frame, over whole periods after the warm-up.
+    """The cluster's rotation rate ϖ in units of Ω in the lab frame, over whole periods after the
+    warm-up.
 
-    `mean_by_event` is the paper's average over events. `rigid_…` are rates of the best-fitting rigid body
-    (src/swirl/measure/cluster_rotation.hpp). Negative values mean counterrotation.
-    """
+    `mean_by_event` is the paper's average over events. `rigid_…` are rates of the best-fitting
+    rigid body (src/swirl/measure/cluster_rotation.hpp). Negative values mean counterrotation."""
 
     mean_by_event: Estimate
     mean_by_time: Estimate
@@ -303,8 +343,8 @@ class Rotation:
 
 @dataclasses.dataclass(frozen=True)
 class EventCounts:
-    """Number of events of each kind. `elastic_by_tc_model` counts collisions that are also in disc_disc
-    or disc_wall."""
+    """Number of events of each kind. `elastic_by_tc_model` counts collisions that are also in
+    disc_disc or disc_wall."""
 
     total: int = 0
     disc_disc: int = 0
@@ -314,14 +354,19 @@ class EventCounts:
     begins_to_roll: int = 0
 
     def __str__(self) -> str:
-        kinds = ", ".join(f"{number:,} {name}" for name, number in list(vars(self).items())[1:] if number)
+        kinds = ", ".join(
+            f"{number:,} {name}" for name, number in list(vars(self).items())[1:] if number
+        )
         return f"{self.total:,} events{': ' if kinds else ''}{kinds}"
 
 
 def _html_table(caption: str, columns: list[str], values: FloatArray, shown: int = 6) -> str:
     """The first rows and columns of a table, for notebooks."""
     names = columns[:shown] + ["…"] * (len(columns) > shown)
-    rows = [[f"{value:.4g}" for value in row[:shown]] + ["…"] * (len(columns) > shown) for row in values[:shown]]
+    rows = [
+        [f"{value:.4g}" for value in row[:shown]] + ["…"] * (len(columns) > shown)
+        for row in values[:shown]
+    ]
     if len(values) > shown:
         rows.append(["…"] * len(names))
     head = "".join(f"<th>{html.escape(name)}</th>" for name in names)
@@ -334,13 +379,22 @@ def _number(value: Optional[float]) -> float:
 
 
 def _estimate(value: Mapping[str, Any], unit: str, source: str) -> Estimate:
-    return Estimate(_number(value["mean"]), _number(value["error"]), _number(value["effective_samples"]),
-                    int(value["blocks"]), unit, _sources=frozenset((source,)))
+    return Estimate(
+        _number(value["mean"]),
+        _number(value["error"]),
+        _number(value["effective_samples"]),
+        int(value["blocks"]),
+        unit,
+        _sources=frozenset((source,)),
+    )
 
 
 def source_of_run(config: Mapping[str, Any]) -> str:
-    """Runs that differ only in their length have the same events, as far as the shorter one goes."""
-    same = {name: value for name, value in config.items() if name not in ("events", "periods", "warmup")}
+    """Runs that differ only in their length have the same events, as far as the shorter one
+    goes."""
+    same = {
+        name: value for name, value in config.items() if name not in ("events", "periods", "warmup")
+    }
     return _engine.checksum(json.dumps(same, sort_keys=True))
 
 
@@ -356,9 +410,10 @@ class Result:
     warmup                  whole periods omitted from the averages
     series                  Series with the argument `series`, otherwise None
     autocorrelation_times   of its columns, in periods: {"mean_by_time": …}; empty without a series
-    fluctuations            of its columns, without a ramp: r.fluctuations["mean_by_time"]["binder"].mean, and
-                            "n_variance", "skewness", "excess_kurtosis", "correlation_time", "low",
-                            "high", "low_lifetime", "high_lifetime"
+    fluctuations            of its columns, without a ramp:
+                            r.fluctuations["mean_by_time"]["binder"].mean, and "n_variance",
+                            "skewness", "excess_kurtosis", "correlation_time", "low", "high",
+                            "low_lifetime", "high_lifetime"
     steady_state            "steady", "drifting", "jumping", "switching" or "too short to tell"
     steady_state_found      findings of the steady-state tests; "" if there are none
     change, spin_change
@@ -370,14 +425,49 @@ class Result:
     events_per_second, simd, version, build
     """
 
-    __slots__ = ("config", "units", "complete", "rotation", "measured", "series", "autocorrelation_times",
-                 "fluctuations", "events", "periods", "warmup", "warmup_events", "steady_state", "steady_state_found",
-                 "change", "spin_change", "max_overlap", "energy", "energy_at_start", "invariant", "invariant_at_start",
-                 "state_hash", "seconds", "events_per_second", "simd", "warnings", "version", "build",
-                 "_text", "_headline", "_report", "__weakref__")
+    __slots__ = (
+        "config",
+        "units",
+        "complete",
+        "rotation",
+        "measured",
+        "series",
+        "autocorrelation_times",
+        "fluctuations",
+        "events",
+        "periods",
+        "warmup",
+        "warmup_events",
+        "steady_state",
+        "steady_state_found",
+        "change",
+        "spin_change",
+        "max_overlap",
+        "energy",
+        "energy_at_start",
+        "invariant",
+        "invariant_at_start",
+        "state_hash",
+        "seconds",
+        "events_per_second",
+        "simd",
+        "warnings",
+        "version",
+        "build",
+        "_text",
+        "_headline",
+        "_report",
+        "__weakref__",
+    )
 
-    def __init__(self, text: str, measured: Mapping[str, Measured], headline: str,
-                 report: str, series: Optional[Series] = None) -> None:
+    def __init__(
+        self,
+        text: str,
+        measured: Mapping[str, Measured],
+        headline: str,
+        report: str,
+        series: Optional[Series] = None,
+    ) -> None:
         found = json.loads(text)
         self._text = text
         self._headline = headline
@@ -386,18 +476,23 @@ class Result:
         source = source_of_run(self.config)
         self.units: dict[str, float] = found["units"]
         self.complete: bool = found["complete"]
-        self.rotation = Rotation(**{name: _estimate(value, "Ω", source)
-                                    for name, value in found["rotation"].items()})
+        self.rotation = Rotation(
+            **{name: _estimate(value, "Ω", source) for name, value in found["rotation"].items()}
+        )
         self.measured: Mapping[str, Measured] = dict(measured)
         self.series = series
         self.autocorrelation_times: dict[str, float] = {
             name: _number(average["autocorrelation_time"])
-            for name, average in found.get("series", {}).get("averages", {}).items()}
-        self.fluctuations: dict[str, dict[str, Estimate]] = {
-            name: {row: _estimate({**average, **value}, "1", source) for row, value
-                   in average["fluctuations"].items()}
             for name, average in found.get("series", {}).get("averages", {}).items()
-            if "fluctuations" in average}
+        }
+        self.fluctuations: dict[str, dict[str, Estimate]] = {
+            name: {
+                row: _estimate({**average, **value}, "1", source)
+                for row, value in average["fluctuations"].items()
+            }
+            for name, average in found.get("series", {}).get("averages", {}).items()
+            if "fluctuations" in average
+        }
         self.events = EventCounts(**found["events"])
         self.periods = float(found["periods"])
         self.warmup = int(found["warmup"]["periods"])
@@ -431,8 +526,8 @@ class Result:
         write_atomically(file, (self._text + "\n").encode())
 
     def to_pandas(self) -> Any:
-        """The rotation and all measured numbers as a pandas DataFrame, one row per number: quantity, unit, mean, error,
-        effective_samples, blocks."""
+        """The rotation and all measured numbers as a pandas DataFrame, one row per number:
+        quantity, unit, mean, error, effective_samples, blocks."""
         return numbers_to_pandas(self._numbers())
 
     def to_xarray(self) -> Any:
@@ -443,16 +538,23 @@ class Result:
         return [*self.rotation.rows(), *rows_of(self.measured)]
 
     def plot(self, what: Optional[str] = None, *, ax: Any = None) -> Any:
-        """Draws "series", a measurement or one of its tables; returns the axes. The default is the first of these that
-        the result has, and otherwise the rotation. See swirl.plot.result()."""
+        """Draws "series", a measurement or one of its tables; returns the axes. The default is the
+        first of these that the result has, and otherwise the rotation. See swirl.plot.result()."""
         from . import plot
+
         return plot.result(self, what, ax=ax)
 
-    def show(self, *, page: Union[str, "os.PathLike[str]", None] = None, height: int = 640,
-             lang: Optional[str] = None) -> Any:
-        """Shows the browser page with the parameters of this run in a notebook: a swirl.Lab. page, height, lang: as for
-        swirl.lab()."""
+    def show(
+        self,
+        *,
+        page: Union[str, "os.PathLike[str]", None] = None,
+        height: int = 640,
+        lang: Optional[str] = None,
+    ) -> Any:
+        """Shows the browser page with the parameters of this run in a notebook: a swirl.Lab. page,
+        height, lang: as for swirl.lab()."""
         from ._lab import lab, parameters_of
+
         return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
 
     def __repr__(self) -> str:
@@ -463,13 +565,22 @@ class Result:
 
     def _repr_html_(self) -> str:
         # The headline has the rotation.
-        rows = [("events", f"{self.events.total:,}"), ("periods", f"{self.periods:.1f}"),
-                ("steady state", self.steady_state), ("state", self.state_hash)]
-        rows += [(f"{name}.{row}", str(value)) for name, found in self.measured.items()
-                 for row, value in found.rows.items()]
-        body = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
-                       f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
-                       for name, value in rows)
+        rows = [
+            ("events", f"{self.events.total:,}"),
+            ("periods", f"{self.periods:.1f}"),
+            ("steady state", self.steady_state),
+            ("state", self.state_hash),
+        ]
+        rows += [
+            (f"{name}.{row}", str(value))
+            for name, found in self.measured.items()
+            for row, value in found.rows.items()
+        ]
+        body = "".join(
+            f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
+            f"<td style='text-align:left'>{html.escape(value)}</td></tr>"
+            for name, value in rows
+        )
         notes = "".join(f"<p>{html.escape(sentence)}</p>" for sentence in self.warnings)
         return f"<p>{html.escape(self._headline)}</p><table>{body}</table>{notes}"
 

@@ -18,14 +18,15 @@ from ._estimates import ArrayEstimate, Estimate
 from ._results import Measured, Result, Series, measured_of, source_of_run
 
 PathName = Union[str, "os.PathLike[str]"]
-#: Value of a parameter, as on the command line; a tuple is one value with several parts, an array is a
-#: path (columns t, x, y) or sizes (radius, or columns radius and mass).
+# : Value of a parameter, as on the command line; a tuple is one value with several parts, an array
+# is a : path (columns t, x, y) or sizes (radius, or columns radius and mass).
 Value = Union[float, int, str, tuple[Union[float, int, str], ...], "np.ndarray[Any, Any]", None]
 ProgressCallback = Callable[[float, int, float], object]  # (fraction, events, periods)
 
 
 class Parameter(NamedTuple):
-    """One parameter of a run (docs/reference/parameters.md). `lowest` and `highest` limit its value."""
+    """One parameter of a run (docs/reference/parameters.md). `lowest` and `highest` limit its
+    value."""
 
     name: str
     symbol: str
@@ -38,27 +39,29 @@ class Parameter(NamedTuple):
 
     def __str__(self) -> str:
         unit = f", in units of {self.unit}" if self.unit else ""
-        return f"{self.name}: {self.description}{unit}{f' [{self.default}]' if self.default else ''}"
+        return (
+            f"{self.name}: {self.description}{unit}{f' [{self.default}]' if self.default else ''}"
+        )
 
 
 class SamplesSnapshots(Protocol):
     """A custom measurement of single snapshots.
 
-    sample() returns a number, an array, a dict of these, or None to skip the snapshot. The values are
-    averaged over each period; mean and error come from these blocks.
-    """
+    sample() returns a number, an array, a dict of these, or None to skip the snapshot. The values
+    are averaged over each period; mean and error come from these blocks."""
 
-    def sample(self, snapshot: _engine.Snapshot) -> Any: ...
+    def sample(self, snapshot: _engine.Snapshot) -> Any:
+        ...
 
 
 class TakesFrames(Protocol):
     """A custom measurement of all frames of a period.
 
-    frames.position is [frame, disc, xy]. block() returns the value of this period: a number, an array,
-    or a dict of these. Mean and error come from these blocks.
-    """
+    frames.position is [frame, disc, xy]. block() returns the value of this period: a number, an
+    array, or a dict of these. Mean and error come from these blocks."""
 
-    def block(self, frames: _engine.Frames) -> Any: ...
+    def block(self, frames: _engine.Frames) -> Any:
+        ...
 
 
 CustomMeasurement = Union[SamplesSnapshots, TakesFrames, Callable[[_engine.Snapshot], Any]]
@@ -92,17 +95,24 @@ class CustomBlocks:
         self._blocks: dict[str, dict[str, list[tuple[Any, Any]]]] = {n: {} for n in self._names}
         for name in self._names:
             if self._names.count(name) > 1 or name in measurements_known():
-                raise ValueError(f"measure has two measurements named '{name}'.\n"
-                                 "hint: give one of them another attribute `name`.")
-        rates = {int(getattr(m, "samples_per_period", _engine.samples_per_period))
-                 for m in measurements}
+                raise ValueError(
+                    f"measure has two measurements named '{name}'.\n"
+                    "hint: give one of them another attribute `name`."
+                )
+        rates = {
+            int(getattr(m, "samples_per_period", _engine.samples_per_period)) for m in measurements
+        }
         if len(rates) > 1:
-            raise ValueError("all measurements of a run must have the same samples_per_period, but "
-                             f"these have {', '.join(map(str, sorted(rates)))}.")
+            raise ValueError(
+                "all measurements of a run must have the same samples_per_period, but "
+                f"these have {', '.join(map(str, sorted(rates)))}."
+            )
         self.samples_per_period = rates.pop() if rates else _engine.samples_per_period
         if not 1 <= self.samples_per_period <= 1_000_000:
-            raise ValueError(f"samples_per_period is {self.samples_per_period}, but it must be from "
-                             "1 to 1000000.")
+            raise ValueError(
+                f"samples_per_period is {self.samples_per_period}, but it must be from "
+                "1 to 1000000."
+            )
 
     def period_ended(self, frames: _engine.Frames) -> None:
         for name, measurement in zip(self._names, self._measurements):
@@ -132,8 +142,12 @@ class CustomBlocks:
 
     def results(self, source: str) -> dict[str, Measured]:
         """The estimates of the run or recording `source`."""
-        return {name: Measured(name, {row: _estimate_of(blocks, source) for row, blocks in rows.items()}, {})
-                for name, rows in self._blocks.items()}
+        return {
+            name: Measured(
+                name, {row: _estimate_of(blocks, source) for row, blocks in rows.items()}, {}
+            )
+            for name, rows in self._blocks.items()
+        }
 
 
 def _estimate_of(blocks: list[tuple[Any, Any]], source: str) -> Union[Estimate, ArrayEstimate]:
@@ -141,7 +155,9 @@ def _estimate_of(blocks: list[tuple[Any, Any]], source: str) -> Union[Estimate, 
     shape, n = sums.shape[1:], len(blocks)
     mean, error, effective = _engine.estimates(sums.reshape(n, -1), weights.reshape(n, -1))
     if shape == ():
-        return Estimate(float(mean[0]), float(error[0]), float(effective[0]), n, _sources=frozenset((source,)))
+        return Estimate(
+            float(mean[0]), float(error[0]), float(effective[0]), n, _sources=frozenset((source,))
+        )
     return ArrayEstimate(mean.reshape(shape), error.reshape(shape), effective.reshape(shape), n)
 
 
@@ -168,14 +184,20 @@ def split_measure(measure: Optional[Measure]) -> tuple[list[str], list[CustomMea
     custom: list[CustomMeasurement] = []
     for each in measure:
         if isinstance(each, str):
-            names += [name for name in _engine.measurement_list(text("measure", each)) if name not in names]
+            names += [
+                name
+                for name in _engine.measurement_list(text("measure", each))
+                if name not in names
+            ]
             continue
         kind: Any = each  # a class or an object
         one = kind() if isinstance(each, type) else kind
         if not (hasattr(one, "block") or hasattr(one, "sample") or callable(one)):
-            raise TypeError(f"measure contains {shown(one)}, but each element must be a name or have a "
-                            "method sample(snapshot) or block(frames).\n"
-                            "hint: swirl.measurements() lists the names.")
+            raise TypeError(
+                f"measure contains {shown(one)}, but each element must be a name or have a "
+                "method sample(snapshot) or block(frames).\n"
+                "hint: swirl.measurements() lists the names."
+            )
         custom.append(one)
     return names, custom
 
@@ -210,11 +232,19 @@ class Progress:
             self._bar.close()
 
 
-def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCallback, None] = None,
-        trajectory: Optional[PathName] = None, frames: Optional[int] = None,
-        event_log: Optional[PathName] = None, checkpoint: Optional[PathName] = None,
-        series: Union[bool, PathName] = False, resume: bool = False, overwrite: bool = False,
-        **parameters: Value) -> Result:
+def run(
+    *,
+    measure: Optional[Measure] = None,
+    progress: Union[bool, ProgressCallback, None] = None,
+    trajectory: Optional[PathName] = None,
+    frames: Optional[int] = None,
+    event_log: Optional[PathName] = None,
+    checkpoint: Optional[PathName] = None,
+    series: Union[bool, PathName] = False,
+    resume: bool = False,
+    overwrite: bool = False,
+    **parameters: Value,
+) -> Result:
     names, custom = split_measure(measure)
     blocks = CustomBlocks(custom)
     table = None if isinstance(series, bool) else series
@@ -223,13 +253,25 @@ def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCall
     bar = Progress(progress, "run")
     try:
         text, reports, raised, headline, report, found = _engine.run(
-            parameters, names, call_text("run", given), bar.callback, blocks.samples_per_period,
-            blocks.period_ended if custom else None, files, bool(series))
+            parameters,
+            names,
+            call_text("run", given),
+            bar.callback,
+            blocks.samples_per_period,
+            blocks.period_ended if custom else None,
+            files,
+            bool(series),
+        )
     finally:
         bar.close()
     source = source_of_run(json.loads(text)["config"])
-    result = Result(text, {**measured_of(reports, source), **blocks.results(source)}, headline, report,
-                    Series(*found) if found is not None else None)
+    result = Result(
+        text,
+        {**measured_of(reports, source), **blocks.results(source)},
+        headline,
+        report,
+        Series(*found) if found is not None else None,
+    )
     if isinstance(raised, KeyboardInterrupt):
         raise Interrupted(result) from None
     if raised is not None:
@@ -237,22 +279,38 @@ def run(*, measure: Optional[Measure] = None, progress: Union[bool, ProgressCall
     return result
 
 
-def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Optional[PathName],
-           checkpoint: Optional[PathName], series: Optional[PathName], resume: bool,
-           overwrite: bool) -> dict[str, Any]:
-    files: dict[str, Any] = {name: file_name(name, path) for name, path in
-                             (("trajectory", trajectory), ("event_log", event_log),
-                              ("checkpoint", checkpoint), ("series", series))
-                             if path is not None}
+def _files(
+    trajectory: Optional[PathName],
+    frames: Optional[int],
+    event_log: Optional[PathName],
+    checkpoint: Optional[PathName],
+    series: Optional[PathName],
+    resume: bool,
+    overwrite: bool,
+) -> dict[str, Any]:
+    files: dict[str, Any] = {
+        name: file_name(name, path)
+        for name, path in (
+            ("trajectory", trajectory),
+            ("event_log", event_log),
+            ("checkpoint", checkpoint),
+            ("series", series),
+        )
+        if path is not None
+    }
     if series is not None and not os.fspath(series).endswith(".csv"):
-        raise ValueError(f"series is '{os.fspath(series)}', but its name must end in .csv.\n"
-                         "hint: the table is written as CSV; series=True only returns it.")
+        raise ValueError(
+            f"series is '{os.fspath(series)}', but its name must end in .csv.\n"
+            "hint: the table is written as CSV; series=True only returns it."
+        )
     if frames is not None:
         if trajectory is None:
             raise ValueError("frames is given, but trajectory is not.")
         if not isinstance(frames, int) or not 1 <= frames <= 1_000_000:
-            raise ValueError(f"frames is {shown(frames)}, but it must be a whole number per period from "
-                             "1 to 1000000.")
+            raise ValueError(
+                f"frames is {shown(frames)}, but it must be a whole number per period from "
+                "1 to 1000000."
+            )
         files["frames"] = frames
     if resume and checkpoint is None:
         raise ValueError("resume is given, but checkpoint is not.")
@@ -264,8 +322,10 @@ def _files(trajectory: Optional[PathName], frames: Optional[int], event_log: Opt
     if not overwrite and not continues:
         for path in (checkpoint, trajectory, event_log, series):
             if path is not None and exists(path) and os.path.getsize(path) > 0:
-                raise FileExistsError(f"'{os.fspath(path)}' already exists.\nhint: choose another name, "
-                                      "or use overwrite=True to replace it.")
+                raise FileExistsError(
+                    f"'{os.fspath(path)}' already exists.\nhint: choose another name, "
+                    "or use overwrite=True to replace it."
+                )
     return files
 
 
@@ -280,20 +340,28 @@ def parameter_lines() -> str:
 def with_parameters(function: Callable[..., Any], text: str) -> None:
     """Sets docstring and signature of a function with **parameters, so that editors complete their
     names."""
-    function.__doc__ = f"{text}\nParameters (docs/reference/parameters.md), the paper's values by default:\n\n" \
-                       f"{parameter_lines()}\n"
+    function.__doc__ = (
+        f"{text}\nParameters (docs/reference/parameters.md), the paper's values by default:\n\n"
+        f"{parameter_lines()}\n"
+    )
     signature = inspect.signature(function)
     named = [p for p in signature.parameters.values() if p.kind != p.VAR_KEYWORD]
     taken = {p.name for p in named}
-    first = [inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=None)
-             for p in parameters() if p.name not in taken]
+    first = [
+        inspect.Parameter(p.name, inspect.Parameter.KEYWORD_ONLY, default=None)
+        for p in parameters()
+        if p.name not in taken
+    ]
     before = [p for p in named if p.kind != p.KEYWORD_ONLY]
     after = [p for p in named if p.kind == p.KEYWORD_ONLY]
     function.__signature__ = signature.replace(  # type: ignore[attr-defined]
-        parameters=before + first + after)
+        parameters=before + first + after
+    )
 
 
-with_parameters(run, """One simulation, from its seed to its averages, like `swirl run`.
+with_parameters(
+    run,
+    """One simulation, from its seed to its averages, like `swirl run`.
 
     r = swirl.run(discs=48, mu=1, events=1e6, measure=["density", "pinned"])
     r.rotation.mean_by_time.mean, r.rotation.mean_by_time.error
@@ -312,4 +380,5 @@ Returns a swirl.Result; its values are bitwise identical to those of the command
 threads run meanwhile. Ctrl-C raises swirl.Interrupted, a KeyboardInterrupt whose `result` holds the
 averages so far. A wrong value raises ValueError, a wrong name or type TypeError, and a run that cannot
 be done swirl.Failure.
-""")
+""",
+)

@@ -38,10 +38,17 @@ def _is_array(value: object) -> bool:
 class Simulation:
     __slots__ = ("_engine", "__weakref__")
 
-    def __init__(self, *, position: Optional[Array] = None, velocity: Optional[Array] = None,
-                 angle: Optional[Array] = None, spin: Optional[Array] = None,
-                 path: Union[str, Array, None] = None, path_times: Optional[Array] = None,
-                 **parameters: Any) -> None:
+    def __init__(
+        self,
+        *,
+        position: Optional[Array] = None,
+        velocity: Optional[Array] = None,
+        angle: Optional[Array] = None,
+        spin: Optional[Array] = None,
+        path: Union[str, Array, None] = None,
+        path_times: Optional[Array] = None,
+        **parameters: Any,
+    ) -> None:
         given = {"position": position, "velocity": velocity, "angle": angle, "spin": spin}
         discs = {name: values for name, values in given.items() if values is not None}
         for name in ("radius", "mass", "inertia", "cannot_spin"):
@@ -62,14 +69,17 @@ class Simulation:
             custom_path = _floats("path", path)
             for name in ("amplitude", "sides", "speed"):
                 if parameters.get(name) is not None:
-                    raise ValueError(f"{name} and a custom path are both given, but both define the "
-                                     "path.")
+                    raise ValueError(
+                        f"{name} and a custom path are both given, but both define the " "path."
+                    )
         elif path is not None:
             parameters["path"] = path
         for name in ("events", "periods", "warmup"):
             if parameters.get(name) is not None:
-                raise TypeError(f"{name} is given, but a simulation has no fixed length.\n"
-                                "hint: use swirl.run(), or advance() of the simulation.")
+                raise TypeError(
+                    f"{name} is given, but a simulation has no fixed length.\n"
+                    "hint: use swirl.run(), or advance() of the simulation."
+                )
         times = None if path_times is None else _floats("path_times", path_times)
         self._engine = _engine.Simulation(parameters, columns, custom_path, times)
 
@@ -78,12 +88,11 @@ class Simulation:
     def step(self, count: int = 1) -> npt.NDArray[np.void]:
         """Executes `count` events and returns them as a structured array with one row per event.
 
-        Columns of time: whole_periods, clock (the time since the last whole period) and time. Columns
-        of the contact: kind (EventKind), i and j (the discs; j = i at the wall), normal_x and normal_y
-        (unit vector from i to j, or to the wall), and overlap (a rounding error). Columns of the
-        impulse on j or on the wall: normal_impulse and tangential_impulse. After Ctrl-C the simulation
-        is at the last executed event.
-        """
+        Columns of time: whole_periods, clock (the time since the last whole period) and time.
+        Columns of the contact: kind (EventKind), i and j (the discs; j = i at the wall), normal_x
+        and normal_y (unit vector from i to j, or to the wall), and overlap (a rounding error).
+        Columns of the impulse on j or on the wall: normal_impulse and tangential_impulse. After
+        Ctrl-C the simulation is at the last executed event."""
         return self._engine.step(_whole("count", count))
 
     def events(self, count: Optional[int] = None) -> Iterator[_engine.Event]:
@@ -94,8 +103,13 @@ class Simulation:
             yield self._engine.next()
             remaining -= 1
 
-    def advance(self, *, periods: Optional[float] = None, time: Optional[float] = None,
-                events: Optional[float] = None) -> None:
+    def advance(
+        self,
+        *,
+        periods: Optional[float] = None,
+        time: Optional[float] = None,
+        events: Optional[float] = None,
+    ) -> None:
         """Advances by a number of periods, a time, or a number of events: give one of them.
 
         Stopping in between does not alter the trajectory; it stays bitwise identical.
@@ -122,9 +136,11 @@ class Simulation:
         ValueError for a time in the past."""
         self._engine.advance_to(_whole("whole_periods", whole_periods), _number("clock", clock))
 
-    def sample(self, periods: float = 1.0, per_period: int = _engine.samples_per_period
-               ) -> _engine.Frames:
-        """Advances by `periods` and returns frames at equal time steps, `per_period` in each period.
+    def sample(
+        self, periods: float = 1.0, per_period: int = _engine.samples_per_period
+    ) -> _engine.Frames:
+        """Advances by `periods` and returns frames at equal time steps, `per_period` in each
+        period.
 
         The first frame is the present state; the simulation ends where the next frame would be. All
         columns are numpy arrays: frames.position is [frame, disc, xy].
@@ -136,14 +152,17 @@ class Simulation:
         if not count >= 0:
             raise ValueError(f"periods is {periods}, but it must be 0 or more.")
         if not count * len(self) <= 1e8:
-            raise ValueError(f"periods is {periods}, but {count:g} frames of {len(self)} discs do not "
-                             "fit into memory.\nhint: reduce periods or per_period.")
+            raise ValueError(
+                f"periods is {periods}, but {count:g} frames of {len(self)} discs do not "
+                "fit into memory.\nhint: reduce periods or per_period."
+            )
         return self._engine.sample(round(count), n)
 
     # --- inspecting ---------------------------------------------------------------------------
 
     def snapshot(self) -> _engine.Snapshot:
-        """All discs and the container now. The snapshot does not change when the simulation advances."""
+        """All discs and the container now. The snapshot does not change when the simulation
+        advances."""
         return self._engine.snapshot()
 
     @property
@@ -175,8 +194,8 @@ class Simulation:
 
     @property
     def state_hash(self) -> str:
-        """64-bit hash of the state as 16 hexadecimal digits. Equal states have equal hashes on every
-        machine."""
+        """64-bit hash of the state as 16 hexadecimal digits. Equal states have equal hashes on
+        every machine."""
         return self._engine.state_hash()
 
     @property
@@ -207,26 +226,34 @@ class Simulation:
         return len(self._engine)
 
     def __repr__(self) -> str:
-        return (f"<swirl.Simulation of {len(self)} discs after {self.periods:.3f} periods and "
-                f"{self.counts.total:,} events>")
+        return (
+            f"<swirl.Simulation of {len(self)} discs after {self.periods:.3f} periods and "
+            f"{self.counts.total:,} events>"
+        )
 
     def _repr_svg_(self) -> str:
         return str(self.snapshot()._repr_svg_())
 
-    def show(self, *, page: Optional[PathName] = None, height: int = 640, lang: Optional[str] = None) -> Lab:
-        """Shows the browser page with the parameters of this simulation in a notebook. It begins at time 0.
+    def show(
+        self, *, page: Optional[PathName] = None, height: int = 640, lang: Optional[str] = None
+    ) -> Lab:
+        """Shows the browser page with the parameters of this simulation in a notebook. It begins at
+        time 0.
 
-        page, height, lang: as for swirl.lab(). Raises ValueError for custom discs or a custom path, which the page cannot
-        place.
-        """
+        page, height, lang: as for swirl.lab(). Raises ValueError for custom discs or a custom path,
+        which the page cannot place."""
         if self._engine.is_custom:
-            raise ValueError("the page places the discs by the parameters, but this simulation has discs or a path of "
-                             "its own.\nhint: plot() draws the discs.")
+            raise ValueError(
+                "the page places the discs by the parameters, but this simulation has discs or a "
+                "path of "
+                "its own.\nhint: plot() draws the discs."
+            )
         return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
 
     def plot(self, *, ax: Any = None, **style: Any) -> Any:
         """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
         from . import plot
+
         return plot.snapshot(self, ax=ax, **style)
 
     # --- saving -------------------------------------------------------------------------------
@@ -283,7 +310,9 @@ def _floats(name: str, values: Array) -> npt.NDArray[np.float64]:
         raise TypeError(f"{name} must be an array of numbers.") from None
 
 
-with_parameters(Simulation.__init__, """A simulation that advances step by step.
+with_parameters(
+    Simulation.__init__,
+    """A simulation that advances step by step.
 
     sim = swirl.Simulation(discs=48, seed=3)
     for event in sim.events(1000): ...
@@ -312,5 +341,6 @@ A simulation can be copied, pickled and saved; copies continue independently and
 Several threads may use different simulations at the same time. Calls of several threads to one
 simulation wait for each other. After a fork during a call, the child cannot use the simulation: it raises
 swirl.Failure. A value out of range, or an overlap of discs, raises ValueError, and a collapse swirl.Failure.
-""")
+""",
+)
 Simulation.__doc__ = Simulation.__init__.__doc__

@@ -21,7 +21,7 @@ from ._arguments import file_name, shown, text as checked_text
 from ._files import exists
 from ._optional import optional
 from ._results import Result
-from ._runs import (Measure, PathName, Progress, call_text, run, split_measure, with_parameters)
+from ._runs import Measure, PathName, Progress, call_text, run, split_measure, with_parameters
 
 Values = Any  # one value of a parameter, a list or array of them, or a text: "5:48", "0:0.25:1"
 
@@ -42,8 +42,9 @@ def _count(name: str, value: object, lowest: int) -> int:
         raise TypeError(f"{name} is {shown(value)}, but it must be a whole number.")
     number = int(value.__index__())
     if not lowest <= number <= 1_000_000:
-        raise ValueError(f"{name} is {number}, but it must be a whole number from {lowest} to "
-                         "1000000.")
+        raise ValueError(
+            f"{name} is {number}, but it must be a whole number from {lowest} to " "1000000."
+        )
     return number
 
 
@@ -57,8 +58,12 @@ def _rows(points: Any) -> Optional[list[dict[str, Any]]]:
             raise ValueError(f"points has two columns {', '.join(twice)}.")
         rows: list[dict[str, Any]] = points.to_dict("records")
     elif isinstance(points, Mapping):
-        if any(isinstance(values, str) or not hasattr(values, "__len__") for values in points.values()):
-            raise TypeError("points is a dictionary, but not each of its values is a column, a list of values.")
+        if any(
+            isinstance(values, str) or not hasattr(values, "__len__") for values in points.values()
+        ):
+            raise TypeError(
+                "points is a dictionary, but not each of its values is a column, a list of values."
+            )
         lengths = {name: len(values) for name, values in points.items()}
         if len(set(lengths.values())) > 1:
             raise ValueError(f"the columns of points have different lengths: {lengths}.")
@@ -66,8 +71,11 @@ def _rows(points: Any) -> Optional[list[dict[str, Any]]]:
     elif isinstance(points, Sequence) and all(isinstance(row, Mapping) for row in points):
         rows = [dict(row) for row in points]
     else:
-        raise TypeError(f"points is {shown(points)}, but it must be a DataFrame, a list of dictionaries, or a dictionary "
-                        "of columns.\nhint: read a file with pandas.read_csv(\"points.csv\", comment=\"#\").")
+        raise TypeError(
+            f"points is {shown(points)}, but it must be a DataFrame, a list of dictionaries, or a "
+            "dictionary "
+            'of columns.\nhint: read a file with pandas.read_csv("points.csv", comment="#").'
+        )
     if not rows:
         raise ValueError("points has no rows.")
     return [_row(number, row) for number, row in enumerate(rows, 1)]
@@ -81,41 +89,73 @@ def _row(number: int, row: Mapping[Any, Any]) -> dict[str, Any]:
         if name in found:
             raise ValueError(f"points has two columns {name}.")
         if isinstance(value, str) and re.fullmatch(r"\s*[-+]?\d+,\d+\s*", value):
-            raise ValueError(f"points, row {number}: {name} is {shown(value)}, but it must be a number.\n"
-                             "hint: read decimal commas with pandas.read_csv(file, sep=\";\", decimal=\",\").")
+            raise ValueError(
+                f"points, row {number}: {name} is {shown(value)}, but it must be a number.\n"
+                'hint: read decimal commas with pandas.read_csv(file, sep=";", decimal=",").'
+            )
         found[name] = value
     return found
 
 
-def sweep(out: Optional[PathName] = None, *, points: Any = None, seeds: int = 1, measure: Optional[Measure] = None,
-          frames: int = 0, threads: int = 0, grow: bool = False,
-          progress: Union[bool, Callable[[float, float, int], object], None] = None,
-          chain: Optional[str] = None, series: bool = False,
-          **parameters: Values) -> Any:
+def sweep(
+    out: Optional[PathName] = None,
+    *,
+    points: Any = None,
+    seeds: int = 1,
+    measure: Optional[Measure] = None,
+    frames: int = 0,
+    threads: int = 0,
+    grow: bool = False,
+    progress: Union[bool, Callable[[float, float, int], object], None] = None,
+    chain: Optional[str] = None,
+    series: bool = False,
+    **parameters: Values,
+) -> Any:
     optional("pandas", "swirl.sweep()")
     _count("threads", threads, 0)
     if out is None:
         if grow or frames or series:
-            raise ValueError(f"{'grow' if grow else 'frames' if frames else 'series'} is given, but out, "
-                             "the folder of the sweep, is not.")
+            raise ValueError(
+                f"{'grow' if grow else 'frames' if frames else 'series'} is given, but out, "
+                "the folder of the sweep, is not."
+            )
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as folder:
-            return sweep(folder, points=points, seeds=seeds, measure=measure, threads=threads, progress=progress,
-                         chain=chain, **parameters)
+            return sweep(
+                folder,
+                points=points,
+                seeds=seeds,
+                measure=measure,
+                threads=threads,
+                progress=progress,
+                chain=chain,
+                **parameters,
+            )
     folder = file_name("out", out)
     rows = _rows(points)
     names = _names(measure, "A sweep")
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow and (chain or series):
-        raise ValueError("chain and series cannot be used with grow: they apply to all runs of a sweep or to "
-                         "none.")
+        raise ValueError(
+            "chain and series cannot be used with grow: they apply to all runs of a sweep or to "
+            "none."
+        )
     if grow:
         _engine.grow(folder, given, 0 if seeds == 1 else _count("seeds", seeds, 1), names, rows)
     elif given or rows or names or chain or series:
-        _engine.Plan(given, _count("seeds", seeds, 1), names, _count("frames", frames, 0), chain or "",
-                     bool(series), rows).write(folder)
+        _engine.Plan(
+            given,
+            _count("seeds", seeds, 1),
+            names,
+            _count("frames", frames, 0),
+            chain or "",
+            bool(series),
+            rows,
+        ).write(folder)
     elif not exists(os.path.join(folder, "plan.json")):
-        raise ValueError("there is no parameter to sweep over.\n"
-                         "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1].")
+        raise ValueError(
+            "there is no parameter to sweep over.\n"
+            "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1]."
+        )
     bar = Progress(progress if not callable(progress) else None, "sweep")
     callback: Any = progress if callable(progress) else None
     if callback is None and bar.callback is not None:
@@ -123,13 +163,15 @@ def sweep(out: Optional[PathName] = None, *, points: Any = None, seeds: int = 1,
 
         def callback(done: float, runs: float, events: int) -> None:
             show(done / runs if runs else 1.0, events, 0.0)
+
     try:
         _, failed, _, first_failure = _engine.sweep(folder, threads, callback)
     finally:
         bar.close()
     if failed:
-        warnings.warn(f"{failed} runs failed; the first is {first_failure}",
-                      SweepWarning, stacklevel=2)
+        warnings.warn(
+            f"{failed} runs failed; the first is {first_failure}", SweepWarning, stacklevel=2
+        )
     return collect(folder)
 
 
@@ -143,19 +185,28 @@ def collect(out: PathName) -> Any:
     """
     pandas = optional("pandas", "swirl.collect()")
     csv, points, done, running, failed, disagreeing, not_steady, without, loops = _engine.collect(
-        file_name("out", out))
+        file_name("out", out)
+    )
     # As text: a hash such as 12345678e9012345 looks like a number.
-    table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip",
-                            dtype={"state_hash": str, "steady_state": str})
+    table = pandas.read_csv(
+        io.StringIO(csv),
+        float_precision="round_trip",
+        dtype={"state_hash": str, "steady_state": str},
+    )
     table.attrs["runs"] = {"planned": points, "done": done, "running": running, "failed": failed}
     table.attrs["disagreeing"] = disagreeing
     table.attrs["not_steady"] = not_steady
     if loops:
         table.attrs["loops"] = pandas.read_csv(
-            io.StringIO(loops), float_precision="round_trip").to_dict("records")
+            io.StringIO(loops), float_precision="round_trip"
+        ).to_dict("records")
     if without:
-        warnings.warn(f"{without} runs have no whole period after the warm-up, so they have no "
-                      "averages.\nhint: increase events.", SweepWarning, stacklevel=2)
+        warnings.warn(
+            f"{without} runs have no whole period after the warm-up, so they have no "
+            "averages.\nhint: increase events.",
+            SweepWarning,
+            stacklevel=2,
+        )
     return table
 
 
@@ -163,14 +214,13 @@ def collect(out: PathName) -> Any:
 class Crossing:
     """The number of discs N_c at which rotation changes to counterrotation.
 
-    `discs` is N_c, `error` its standard error, and `lower` to `upper` its 95 % interval. `discs` and
-    `error` are NaN if only the interval is known. All of these refer to the rotation rate `rate`.
-    `verdict` is "crosses", "always rotates", "always counterrotates" or "undecided"; `sentence`
-    reports it with the evidence. `by_rate` has the results for each of the four rates: N_c, N_c_error,
-    N_c_lower, N_c_upper, every change of sign, and the numbers whose sign is undetermined. Each of
-    `points` has the number of discs, the rotation (mean, error) by `rate` and by each of the four
-    rates, and the number of runs.
-    """
+    `discs` is N_c, `error` its standard error, and `lower` to `upper` its 95 % interval. `discs`
+    and `error` are NaN if only the interval is known. All of these refer to the rotation rate
+    `rate`. `verdict` is "crosses", "always rotates", "always counterrotates" or "undecided";
+    `sentence` reports it with the evidence. `by_rate` has the results for each of the four rates:
+    N_c, N_c_error, N_c_lower, N_c_upper, every change of sign, and the numbers whose sign is
+    undetermined. Each of `points` has the number of discs, the rotation (mean, error) by `rate` and
+    by each of the four rates, and the number of runs."""
 
     verdict: str
     discs: float
@@ -196,12 +246,15 @@ class Crossing:
         """The points as an xarray Dataset along the dimension discs."""
         xarray = optional("xarray", "to_xarray()")
         names = [name for name in (self.points[0] if self.points else ()) if name != "discs"]
-        return xarray.Dataset({name: ("discs", [point[name] for point in self.points]) for name in names},
-                              {"discs": [point["discs"] for point in self.points]})
+        return xarray.Dataset(
+            {name: ("discs", [point[name] for point in self.points]) for name in names},
+            {"discs": [point["discs"] for point in self.points]},
+        )
 
     def plot(self, *, ax: Any = None) -> Any:
         """Draws the points with N_c; returns the axes. See swirl.plot.crossing()."""
         from . import plot
+
         return plot.crossing(self, ax=ax)
 
     def __str__(self) -> str:
@@ -213,11 +266,18 @@ _ARRAYS = ("path", "sizes", "initial")  # parameters of which an array is one va
 
 def _lists(parameters: dict[str, Any]) -> dict[str, list[Any]]:
     """The parameters with several values."""
-    return {name: list(value) for name, value in parameters.items() if name not in _ARRAYS
-            and hasattr(value, "__iter__") and not isinstance(value, (str, tuple, bytes))}
+    return {
+        name: list(value)
+        for name, value in parameters.items()
+        if name not in _ARRAYS
+        and hasattr(value, "__iter__")
+        and not isinstance(value, (str, tuple, bytes))
+    }
 
 
-def _crossings(out: Optional[PathName], lists: dict[str, list[Any]], options: dict[str, Any]) -> Any:
+def _crossings(
+    out: Optional[PathName], lists: dict[str, list[Any]], options: dict[str, Any]
+) -> Any:
     """A search for each combination of the lists; with a folder, each has its own folder in it."""
     pandas = optional("pandas", "swirl.crossing() of lists")
     rows, searches = [], []
@@ -227,46 +287,100 @@ def _crossings(out: Optional[PathName], lists: dict[str, list[Any]], options: di
         folder = None if out is None else os.path.join(os.fspath(out), name)
         found = crossing(folder, **{**options, **here})
         searches.append(found)
-        rows.append({**here, "verdict": found.verdict, "N_c": found.discs, "N_c_error": found.error,
-                     "N_c_lower": found.lower, "N_c_upper": found.upper, "from": found.found["from"],
-                     "to": found.found["to"], "within_tolerance": found.within_tolerance, "runs": found.found["runs"]})
+        rows.append(
+            {
+                **here,
+                "verdict": found.verdict,
+                "N_c": found.discs,
+                "N_c_error": found.error,
+                "N_c_lower": found.lower,
+                "N_c_upper": found.upper,
+                "from": found.found["from"],
+                "to": found.found["to"],
+                "within_tolerance": found.within_tolerance,
+                "runs": found.found["runs"],
+            }
+        )
     table = pandas.DataFrame(rows)
     table.attrs["searches"] = searches
     return table
 
 
-def crossing(out: Optional[PathName] = None, *, min_discs: int = 5, max_discs: int = 48, tolerance: float = 0.1,
-             rate: str = "mean_by_time", threads: int = 0,
-             progress: Union[bool, Callable[[str, float], object], None] = None,
-             **parameters: Any) -> Any:
+def crossing(
+    out: Optional[PathName] = None,
+    *,
+    min_discs: int = 5,
+    max_discs: int = 48,
+    tolerance: float = 0.1,
+    rate: str = "mean_by_time",
+    threads: int = 0,
+    progress: Union[bool, Callable[[str, float], object], None] = None,
+    **parameters: Any,
+) -> Any:
     lists = _lists(parameters)
     if lists:
         single = {name: value for name, value in parameters.items() if name not in lists}
-        return _crossings(out, lists, {"min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
-                                       "rate": rate, "threads": threads, "progress": progress, **single})
+        return _crossings(
+            out,
+            lists,
+            {
+                "min_discs": min_discs,
+                "max_discs": max_discs,
+                "tolerance": tolerance,
+                "rate": rate,
+                "threads": threads,
+                "progress": progress,
+                **single,
+            },
+        )
     for name in ("discs", "periods"):
         if parameters.get(name) is not None:
-            raise TypeError(f"{name} is given, but the search varies it.\n"
-                            "hint: use min_discs, max_discs and events.")
-    callback = progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
-    given: dict[str, Any] = {"min_discs": min_discs, "max_discs": max_discs, "tolerance": tolerance,
-                             **parameters}
+            raise TypeError(
+                f"{name} is given, but the search varies it.\n"
+                "hint: use min_discs, max_discs and events."
+            )
+    callback = (
+        progress if callable(progress) else (lambda stage, rate: print(stage)) if progress else None
+    )
+    given: dict[str, Any] = {
+        "min_discs": min_discs,
+        "max_discs": max_discs,
+        "tolerance": tolerance,
+        **parameters,
+    }
     if rate != "mean_by_time":
         given["rate"] = rate
     if out is not None:
         given["out"] = file_name("out", out)
-    text, sentence = _engine.crossing(given.get("out"), parameters, _count("min_discs", min_discs, 1),
-                                      _count("max_discs", max_discs, 1), float(tolerance), checked_text("rate", rate),
-                                      _count("threads", threads, 0), call_text("crossing", given),
-                                      callback)
+    text, sentence = _engine.crossing(
+        given.get("out"),
+        parameters,
+        _count("min_discs", min_discs, 1),
+        _count("max_discs", max_discs, 1),
+        float(tolerance),
+        checked_text("rate", rate),
+        _count("threads", threads, 0),
+        call_text("crossing", given),
+        callback,
+    )
     found = json.loads(text)
 
     def number(name: str) -> float:
         return math.nan if found[name] is None else float(found[name])
 
-    return Crossing(found["verdict"], number("N_c"), number("N_c_error"), number("N_c_lower"),
-                    number("N_c_upper"), bool(found["within_tolerance"]), found["rate"],
-                    found["by_rate"], found["points"], sentence, found)
+    return Crossing(
+        found["verdict"],
+        number("N_c"),
+        number("N_c_error"),
+        number("N_c_lower"),
+        number("N_c_upper"),
+        bool(found["within_tolerance"]),
+        found["rate"],
+        found["by_rate"],
+        found["points"],
+        sentence,
+        found,
+    )
 
 
 Axis = Union[str, tuple[str, Values]]  # "mu=0:1", ("mu", "0:1") or ("mu", [0, 0.5, 1])
@@ -281,25 +395,53 @@ def _axis(name: str, axis: Optional[Axis]) -> dict[str, Values]:
             return {parameter: values}
     elif isinstance(axis, tuple) and len(axis) == 2 and isinstance(axis[0], str):
         return {axis[0]: axis[1]}
-    raise TypeError(f"{name} is {shown(axis)}, but it must be a text such as 'mu=0:1' or a pair such as "
-                    "('mu', [0, 0.5, 1]).")
+    raise TypeError(
+        f"{name} is {shown(axis)}, but it must be a text such as 'mu=0:1' or a pair such as "
+        "('mu', [0, 0.5, 1])."
+    )
 
 
-def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y: Optional[Axis] = None,
-                  quantity: str = "mean_by_time", steps: int = 16, level: float = 0.0,
-                  change: Optional[float] = None, seeds: Optional[int] = None, grow: bool = False,
-                  tolerance: float = 0.5, rate: str = "mean_by_time", min_discs: Optional[int] = None,
-                  max_discs: Optional[int] = None, threads: int = 0,
-                  progress: Optional[Callable[[int, int, int], object]] = None,
-                  **parameters: Any) -> Any:
+def parameter_map(
+    out: Optional[PathName] = None,
+    *,
+    x: Optional[Axis] = None,
+    y: Optional[Axis] = None,
+    quantity: str = "mean_by_time",
+    steps: int = 16,
+    level: float = 0.0,
+    change: Optional[float] = None,
+    seeds: Optional[int] = None,
+    grow: bool = False,
+    tolerance: float = 0.5,
+    rate: str = "mean_by_time",
+    min_discs: Optional[int] = None,
+    max_discs: Optional[int] = None,
+    threads: int = 0,
+    progress: Optional[Callable[[int, int, int], object]] = None,
+    **parameters: Any,
+) -> Any:
     pandas = optional("pandas", "swirl.parameter_map()")
     if out is None:
         if grow:
             raise ValueError("grow is given, but out, the folder of the map, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-map-") as folder:
-            return parameter_map(folder, x=x, y=y, quantity=quantity, steps=steps, level=level, change=change,
-                                 seeds=seeds, tolerance=tolerance, rate=rate, min_discs=min_discs,
-                                 max_discs=max_discs, threads=threads, progress=progress, **parameters)
+            return parameter_map(
+                folder,
+                x=x,
+                y=y,
+                quantity=quantity,
+                steps=steps,
+                level=level,
+                change=change,
+                seeds=seeds,
+                tolerance=tolerance,
+                rate=rate,
+                min_discs=min_discs,
+                max_discs=max_discs,
+                threads=threads,
+                progress=progress,
+                **parameters,
+            )
 
     def counted(name: str, value: Optional[int]) -> Optional[int]:
         return None if value is None else _count(name, value, 1)
@@ -308,34 +450,84 @@ def parameter_map(out: Optional[PathName] = None, *, x: Optional[Axis] = None, y
     _count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow:
-        if given or (quantity, level, change, tolerance, rate) != ("mean_by_time", 0.0, None, 0.5, "mean_by_time"):
-            raise ValueError("grow adds values of x and y, seeds and numbers of discs; all else stays as it is.\n"
-                             "hint: use another folder for another map.")
-        _engine.grow_map(folder, _axis("x", x), _axis("y", y), _count("steps", steps, 2),
-                         counted("seeds", seeds), counted("min_discs", min_discs), counted("max_discs", max_discs))
+        if given or (quantity, level, change, tolerance, rate) != (
+            "mean_by_time",
+            0.0,
+            None,
+            0.5,
+            "mean_by_time",
+        ):
+            raise ValueError(
+                "grow adds values of x and y, seeds and numbers of discs; all else stays as it "
+                "is.\n"
+                "hint: use another folder for another map."
+            )
+        _engine.grow_map(
+            folder,
+            _axis("x", x),
+            _axis("y", y),
+            _count("steps", steps, 2),
+            counted("seeds", seeds),
+            counted("min_discs", min_discs),
+            counted("max_discs", max_discs),
+        )
     elif x is not None or y is not None or given:
-        _engine.write_map_plan(folder, _axis("x", x), _axis("y", y), quantity, rate, float(level), change,
-                               float(tolerance), _count("steps", steps, 2), counted("seeds", seeds) or 16,
-                               counted("min_discs", min_discs) or 5, counted("max_discs", max_discs) or 48, given)
+        _engine.write_map_plan(
+            folder,
+            _axis("x", x),
+            _axis("y", y),
+            quantity,
+            rate,
+            float(level),
+            change,
+            float(tolerance),
+            _count("steps", steps, 2),
+            counted("seeds", seeds) or 16,
+            counted("min_discs", min_discs) or 5,
+            counted("max_discs", max_discs) or 48,
+            given,
+        )
     elif (quantity, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
-            "mean_by_time", 16, 0.0, None, None, 0.5, "mean_by_time", None, None):
-        raise ValueError("options of the map are given, but x is not.\nhint: give all options of the map, "
-                         "or only out to continue it.")
+        "mean_by_time",
+        16,
+        0.0,
+        None,
+        None,
+        0.5,
+        "mean_by_time",
+        None,
+        None,
+    ):
+        raise ValueError(
+            "options of the map are given, but x is not.\nhint: give all options of the map, "
+            "or only out to continue it."
+        )
     elif not exists(os.path.join(folder, "plan.json")):
         raise ValueError("x is missing.\nhint: give an axis, such as x='mu=0:1'.")
     csv, summary, failure = _engine.make_map(folder, threads, progress)
     if failure:
-        warnings.warn(f"some runs of the map failed; the first is {failure}", SweepWarning, stacklevel=2)
+        warnings.warn(
+            f"some runs of the map failed; the first is {failure}", SweepWarning, stacklevel=2
+        )
     table = pandas.read_csv(io.StringIO(csv), float_precision="round_trip", dtype={"verdict": str})
     table.attrs["summary"] = summary
     return table
 
 
-def map_runs(*, seeds: int = 1, measure: Optional[Measure] = None, threads: int = 0,
-             progress: Union[bool, Callable[[int, int], object], None] = None,
-             **parameters: Values) -> list[Result]:
-    plan = _engine.Plan({name: value for name, value in parameters.items() if value is not None},
-                        _count("seeds", seeds, 1), [], 0)
+def map_runs(
+    *,
+    seeds: int = 1,
+    measure: Optional[Measure] = None,
+    threads: int = 0,
+    progress: Union[bool, Callable[[int, int], object], None] = None,
+    **parameters: Values,
+) -> list[Result]:
+    plan = _engine.Plan(
+        {name: value for name, value in parameters.items() if value is not None},
+        _count("seeds", seeds, 1),
+        [],
+        0,
+    )
     _count("threads", threads, 0)
     split_measure(measure)  # raises errors before the first run
     points = plan.points()
@@ -370,7 +562,9 @@ _LISTS = """    Every parameter may be a list (discs=range(5, 49), mu=[0.1, 0.5,
     command line ("5:48", "0:0.25:1"); a tuple is one value (mixture=(12, 1.3)).
 """
 
-with_parameters(sweep, f"""Runs all combinations of parameter lists, or a table of points: `swirl sweep` and `swirl collect`.
+with_parameters(
+    sweep,
+    f"""Runs all combinations of parameter lists, or a table of points: `swirl sweep` and `swirl collect`.
 
     table = swirl.sweep("study", discs=range(5, 49), mu=[0.1, 0.5, 1], seeds=8)
     table = swirl.sweep("pairs", points=[{{"discs": 30, "mu": 0.1}}, {{"discs": 40, "mu": 1, "seeds": 16}}], seeds=8)
@@ -393,8 +587,11 @@ seeds: replicates of each point. measure: names of measurements. frames: record 
 {_LISTS}
 Ctrl-C raises KeyboardInterrupt; finished runs stay in the folder. A failed run leaves its row empty and
 issues a swirl.SweepWarning.
-""")
-with_parameters(crossing, """Searches the number of discs at which rotation changes to counterrotation: `swirl crossing`.
+""",
+)
+with_parameters(
+    crossing,
+    """Searches the number of discs at which rotation changes to counterrotation: `swirl crossing`.
 
     c = swirl.crossing(mu=0.5)
     c.discs, c.error, c.sentence
@@ -410,8 +607,11 @@ min_discs, max_discs: range of the search. tolerance: target standard error of N
     rate that decides: mean_by_event, mean_by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
     [one per core]. progress: True to print, or a function of (current stage, events per second).
     events [2e4]: length of the first runs.
-""")
-with_parameters(parameter_map, """Maps a quantity over one or two parameters, with runs where it changes its sign: `swirl map`.
+""",
+)
+with_parameters(
+    parameter_map,
+    """Maps a quantity over one or two parameters, with runs where it changes its sign: `swirl map`.
 
     table = swirl.parameter_map("map", x="mu=0:1", y=("amplitude", "0.5:4"))
     curve = swirl.parameter_map(x=("mu", [0.2, 0.5, 1]), quantity="N_c")
@@ -427,8 +627,11 @@ grow: add the values of x and y to an existing map, raise the maximum of runs to
     of numbers of discs to min_discs and max_discs.
 tolerance, rate, min_discs, max_discs: for N_c, as in swirl.crossing(). threads: simultaneous runs [one per
     core]. progress: a function of (decided points, known points, events). periods [120]: length of each run.
-""")
-with_parameters(map_runs, f"""Runs all combinations of parameter lists on all cores and returns the complete results.
+""",
+)
+with_parameters(
+    map_runs,
+    f"""Runs all combinations of parameter lists on all cores and returns the complete results.
 
     results = swirl.map(discs=range(5, 49), measure=[MyMeasurement])
 
@@ -436,4 +639,5 @@ Returns a list of swirl.Result in the order of a sweep's points: replicates vary
 list. Seeds are those of a sweep. If a custom measurement is a class, each run has its own instance;
 if it is an object, all threads share it.
 
-{_LISTS}""")
+{_LISTS}""",
+)

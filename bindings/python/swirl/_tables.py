@@ -18,14 +18,26 @@ _OF_DISCS = ("radius", "mass", "inertia", "can_spin")  # one number per disc
 
 def _columns_of_numbers(rows: Rows) -> dict[str, list[Any]]:
     """The columns of numbers.csv (swirl run --tables). Each element of an array is a row."""
-    columns: dict[str, list[Any]] = {name: [] for name in ("quantity", "unit", "mean", "error", "effective_samples",
-                                                           "blocks")}
+    columns: dict[str, list[Any]] = {
+        name: [] for name in ("quantity", "unit", "mean", "error", "effective_samples", "blocks")
+    }
     for quantity, estimate in rows:
         if isinstance(estimate, Estimate):
-            found = [(quantity, estimate.unit, *estimate, estimate.effective_samples, estimate.blocks)]
+            found = [
+                (quantity, estimate.unit, *estimate, estimate.effective_samples, estimate.blocks)
+            ]
         else:
-            found = [(f"{quantity}[{', '.join(map(str, at))}]", "1", estimate.mean[at], estimate.error[at],
-                      estimate.effective_samples[at], estimate.blocks) for at in np.ndindex(estimate.mean.shape)]
+            found = [
+                (
+                    f"{quantity}[{', '.join(map(str, at))}]",
+                    "1",
+                    estimate.mean[at],
+                    estimate.error[at],
+                    estimate.effective_samples[at],
+                    estimate.blocks,
+                )
+                for at in np.ndindex(estimate.mean.shape)
+            ]
         for row in found:
             for column, value in zip(columns.values(), row):
                 column.append(value)
@@ -41,7 +53,9 @@ def numbers_to_xarray(rows: Rows) -> Any:
     xarray = optional("xarray", "to_xarray()")
     columns = _columns_of_numbers(rows)
     quantity = columns.pop("quantity")
-    return xarray.Dataset({name: ("quantity", values) for name, values in columns.items()}, {"quantity": quantity})
+    return xarray.Dataset(
+        {name: ("quantity", values) for name, values in columns.items()}, {"quantity": quantity}
+    )
 
 
 def rows_of(measured: Mapping[str, Any]) -> Rows:
@@ -54,8 +68,11 @@ def rows_of(measured: Mapping[str, Any]) -> Rows:
 def snapshot_to_pandas(self: _engine.Snapshot) -> Any:
     """One row per disc."""
     pandas = optional("pandas", "to_pandas()")
-    columns: dict[str, Any] = {"disc": np.arange(len(self)), **_plane("x", "y", self.position),
-                               **_plane("v_x", "v_y", self.velocity)}
+    columns: dict[str, Any] = {
+        "disc": np.arange(len(self)),
+        **_plane("x", "y", self.position),
+        **_plane("v_x", "v_y", self.velocity),
+    }
     if self.rolling_spin is not None:
         columns.update(_plane("spin_x", "spin_y", self.rolling_spin))
     columns.update({name: np.array(getattr(self, name)) for name in _OF_EACH + _OF_DISCS})
@@ -65,12 +82,19 @@ def snapshot_to_pandas(self: _engine.Snapshot) -> Any:
 def snapshot_to_xarray(self: _engine.Snapshot) -> Any:
     """A Dataset with the dimensions disc and xy."""
     xarray = optional("xarray", "to_xarray()")
-    columns: dict[str, Any] = {"position": (("disc", "xy"), np.array(self.position)),
-                               "velocity": (("disc", "xy"), np.array(self.velocity))}
+    columns: dict[str, Any] = {
+        "position": (("disc", "xy"), np.array(self.position)),
+        "velocity": (("disc", "xy"), np.array(self.velocity)),
+    }
     if self.rolling_spin is not None:
         columns["rolling_spin"] = (("disc", "xy"), np.array(self.rolling_spin))
     columns.update({name: ("disc", np.array(getattr(self, name))) for name in _OF_EACH + _OF_DISCS})
-    columns.update({name: ("xy", np.array(getattr(self, name))) for name in ("container_centre", "container_velocity")})
+    columns.update(
+        {
+            name: ("xy", np.array(getattr(self, name)))
+            for name in ("container_centre", "container_velocity")
+        }
+    )
     return xarray.Dataset(columns, {"xy": ["x", "y"], "time": self.time}, _of_the_container(self))
 
 
@@ -78,9 +102,13 @@ def frames_to_pandas(self: _engine.Frames) -> Any:
     """One row per disc of each frame."""
     pandas = optional("pandas", "to_pandas()")
     frames, discs = len(self), self.discs
-    columns: dict[str, Any] = {"frame": np.repeat(np.arange(frames), discs), "time": np.repeat(self.time, discs),
-                               "disc": np.tile(np.arange(discs), frames),
-                               **_plane("x", "y", self.position), **_plane("v_x", "v_y", self.velocity)}
+    columns: dict[str, Any] = {
+        "frame": np.repeat(np.arange(frames), discs),
+        "time": np.repeat(self.time, discs),
+        "disc": np.tile(np.arange(discs), frames),
+        **_plane("x", "y", self.position),
+        **_plane("v_x", "v_y", self.velocity),
+    }
     columns.update({name: np.array(getattr(self, name)).ravel() for name in _OF_EACH})
     columns.update({name: np.tile(getattr(self, name), frames) for name in _OF_DISCS})
     return pandas.DataFrame(columns)
@@ -89,14 +117,25 @@ def frames_to_pandas(self: _engine.Frames) -> Any:
 def frames_to_xarray(self: _engine.Frames) -> Any:
     """A Dataset with the dimensions frame, disc and xy."""
     xarray = optional("xarray", "to_xarray()")
-    columns: dict[str, Any] = {name: (("frame", "disc", "xy"), np.array(getattr(self, name)))
-                               for name in ("position", "velocity")}
+    columns: dict[str, Any] = {
+        name: (("frame", "disc", "xy"), np.array(getattr(self, name)))
+        for name in ("position", "velocity")
+    }
     columns.update({name: (("frame", "disc"), np.array(getattr(self, name))) for name in _OF_EACH})
     columns.update({name: ("disc", np.array(getattr(self, name))) for name in _OF_DISCS})
-    columns.update({name: (("frame", "xy"), np.array(getattr(self, name)))
-                    for name in ("container_centre", "container_velocity")})
+    columns.update(
+        {
+            name: (("frame", "xy"), np.array(getattr(self, name)))
+            for name in ("container_centre", "container_velocity")
+        }
+    )
     axes: dict[str, Any] = {"xy": ["x", "y"]}
-    axes.update({name: ("frame", np.array(getattr(self, name))) for name in ("time", "whole_periods", "clock")})
+    axes.update(
+        {
+            name: ("frame", np.array(getattr(self, name)))
+            for name in ("time", "whole_periods", "clock")
+        }
+    )
     return xarray.Dataset(columns, axes, _of_the_container(self))
 
 

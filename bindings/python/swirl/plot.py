@@ -1,5 +1,6 @@
-"""Plots with matplotlib. Every function draws into the axes `ax`, or into new ones, and returns them.
-Nothing is shown or saved. Results, tables, series, crossings and snapshots have a method plot(), which calls these.
+"""Plots with matplotlib. Every function draws into the axes `ax`, or into new ones, and returns
+them. Nothing is shown or saved. Results, tables, series, crossings and snapshots have a method
+plot(), which calls these.
 
     import swirl, swirl.plot
     swirl.plot.snapshot(sim.snapshot(), color="spin")
@@ -32,8 +33,14 @@ def _axes(axes: Optional[Axes]) -> Axes:
     return optional("matplotlib.pyplot", "swirl.plot").subplots(constrained_layout=True)[1]
 
 
-def snapshot(source: Union[_engine.Snapshot, Simulation], *, ax: Optional[Axes] = None,
-             m_frame: bool = False, color: Any = "tab:blue", velocities: bool = False) -> Axes:
+def snapshot(
+    source: Union[_engine.Snapshot, Simulation],
+    *,
+    ax: Optional[Axes] = None,
+    m_frame: bool = False,
+    color: Any = "tab:blue",
+    velocities: bool = False,
+) -> Axes:
     """The discs in their container, in the lab frame or the M-frame.
 
     color: one colour for all discs, "spin" (in units of Ω) or "speed" (in units of the container's
@@ -44,8 +51,10 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, ax: Optional[Axes] 
     Circle = optional("matplotlib.patches", "swirl.plot").Circle
     s = source.snapshot() if isinstance(source, Simulation) else source
     if not isinstance(s, _engine.Snapshot):
-        raise TypeError(f"source is {shown(source)}, but it must be a swirl.Snapshot or a swirl.Simulation.\n"
-                        "hint: sim.snapshot() and recording[k] are snapshots; a result has averages only.")
+        raise TypeError(
+            f"source is {shown(source)}, but it must be a swirl.Snapshot or a swirl.Simulation.\n"
+            "hint: sim.snapshot() and recording[k] are snapshots; a result has averages only."
+        )
     if m_frame:
         s = s.m_frame()
     axes = _axes(ax)
@@ -53,8 +62,16 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, ax: Optional[Axes] 
     axes.add_patch(Circle((x, y), s.container_radius, facecolor="none", edgecolor="0.2", lw=1.5))
     widths = 2.0 * s.radius
     # matplotlib stores and modifies its argument, but views of a snapshot are read-only.
-    discs = EllipseCollection(widths, widths, np.zeros(len(s)), units="x", offsets=s.position.copy(),
-                              offset_transform=axes.transData, edgecolor="0.2", lw=0.6)
+    discs = EllipseCollection(
+        widths,
+        widths,
+        np.zeros(len(s)),
+        units="x",
+        offsets=s.position.copy(),
+        offset_transform=axes.transData,
+        edgecolor="0.2",
+        lw=0.6,
+    )
     label = None
     if isinstance(color, str) and color == "spin":
         color, label = s.spin * s.period / (2.0 * math.pi), "spin / Ω"
@@ -75,11 +92,22 @@ def snapshot(source: Union[_engine.Snapshot, Simulation], *, ax: Optional[Axes] 
     if label:
         axes.figure.colorbar(discs, ax=axes, label=label)
     if velocities:
-        axes.quiver(*s.position.T, *(0.1 * s.period * s.velocity.T), angles="xy", scale_units="xy",
-                    scale=1, width=0.003)
+        axes.quiver(
+            *s.position.T,
+            *(0.1 * s.period * s.velocity.T),
+            angles="xy",
+            scale_units="xy",
+            scale=1,
+            width=0.003,
+        )
     reach = 1.04 * s.container_radius
-    axes.set(xlim=(x - reach, x + reach), ylim=(y - reach, y + reach),
-             aspect="equal", xlabel="x / r", ylabel="y / r")
+    axes.set(
+        xlim=(x - reach, x + reach),
+        ylim=(y - reach, y + reach),
+        aspect="equal",
+        xlabel="x / r",
+        ylabel="y / r",
+    )
     return axes
 
 
@@ -95,9 +123,13 @@ def _table(found: Any, name: str) -> Table:
     if not isinstance(found, Measured):
         measured = getattr(found, "measured", None)
         if measured is None:
-            raise TypeError(f"found is {shown(found)}, but it must be a result, a measurement or a table.")
+            raise TypeError(
+                f"found is {shown(found)}, but it must be a result, a measurement or a table."
+            )
         if name not in measured:
-            raise ValueError(f"the result has no '{name}'.\nhint: use swirl.run(measure=[\"{name}\"]).")
+            raise ValueError(
+                f"the result has no '{name}'.\nhint: use swirl.run(measure=[\"{name}\"])."
+            )
         found = measured[name]
     table: Table = found.table
     return table
@@ -135,8 +167,13 @@ def _round(axes: Axes, x: Any, y: Any) -> None:
     # The cells cover the container's bounding square.
     radius = x[-1] + 0.5 * (x[1] - x[0])
     axes.add_patch(Circle((0, 0), radius, facecolor="none", edgecolor="0.5"))
-    axes.set(aspect="equal", xlabel="$x_M$ / r", ylabel="$y_M$ / r", xlim=(-radius, radius),
-             ylim=(-radius, radius))
+    axes.set(
+        aspect="equal",
+        xlabel="$x_M$ / r",
+        ylabel="$y_M$ / r",
+        xlim=(-radius, radius),
+        ylim=(-radius, radius),
+    )
 
 
 def profile(found: Any, column: str = "varpi_m", *, ax: Optional[Axes] = None) -> Axes:
@@ -153,26 +190,47 @@ def profile(found: Any, column: str = "varpi_m", *, ax: Optional[Axes] = None) -
     return axes
 
 
-def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
-             ax: Optional[Axes] = None, label: Optional[str] = None) -> Axes:
+def rotation(
+    runs: Any,
+    *,
+    against: str = "discs",
+    by: Optional[str] = None,
+    ax: Optional[Axes] = None,
+    label: Optional[str] = None,
+) -> Axes:
     """The rotation rate ϖ/Ω, averaged by time, against a parameter.
 
-    runs: the table of swirl.sweep(), with a line for each value of the column `by`; or results, such as
-    those of swirl.map().
-    """
+    runs: the table of swirl.sweep(), with a line for each value of the column `by`; or results,
+    such as those of swirl.map()."""
     axes = _axes(ax)
     if hasattr(runs, "groupby"):
         groups = [(None, runs)] if by is None else list(runs.groupby(by))
         for value, rows in groups:
             rows = rows.sort_values(against)
-            axes.errorbar(rows[against], rows["mean_by_time"], rows["mean_by_time_error"], marker="o", ms=3,
-                          lw=1, capsize=2, label=label if value is None else f"{by} = {value}")
+            axes.errorbar(
+                rows[against],
+                rows["mean_by_time"],
+                rows["mean_by_time_error"],
+                marker="o",
+                ms=3,
+                lw=1,
+                capsize=2,
+                label=label if value is None else f"{by} = {value}",
+            )
     else:
         points = sorted((_parameter(r, against), r.rotation.mean_by_time) for r in _results(runs))
         at = [point[0] for point in points]
         found: list[Estimate] = [point[1] for point in points]
-        axes.errorbar(at, [e.mean for e in found], [e.error for e in found], marker="o", ms=3, lw=1,
-                      capsize=2, label=label)
+        axes.errorbar(
+            at,
+            [e.mean for e in found],
+            [e.error for e in found],
+            marker="o",
+            ms=3,
+            lw=1,
+            capsize=2,
+            label=label,
+        )
     axes.axhline(0, color="0.6", lw=0.8)
     axes.set(xlabel=against, ylabel="ϖ / Ω")
     if axes.get_legend_handles_labels()[0]:
@@ -181,9 +239,9 @@ def rotation(runs: Any, *, against: str = "discs", by: Optional[str] = None,
 
 
 def table(found: Table, column: Optional[str] = None, *, ax: Optional[Axes] = None) -> Axes:
-    """A column of a table: a map in colours, or a line with its error as a band. The default is the first column with an
-    error."""
-    _require(found, (Table,), "a swirl.Table, such as result.measured[\"wall\"].table")
+    """A column of a table: a map in colours, or a line with its error as a band. The default is the
+    first column with an error."""
+    _require(found, (Table,), 'a swirl.Table, such as result.measured["wall"].table')
     values = [name for name in found.columns if name not in found.axes]
     if column is None:
         column = next((name for name in values if f"{name}_error" in found), values[0])
@@ -198,10 +256,13 @@ def table(found: Table, column: Optional[str] = None, *, ax: Optional[Axes] = No
 
 
 def measured(found: Measured, column: Optional[str] = None, *, ax: Optional[Axes] = None) -> Axes:
-    """The first table of a measurement: density and flow as these functions draw them, others as table() does."""
-    _require(found, (Measured,), "a measurement, such as result.measured[\"density\"]")
+    """The first table of a measurement: density and flow as these functions draw them, others as
+    table() does."""
+    _require(found, (Measured,), 'a measurement, such as result.measured["density"]')
     if not found.tables:
-        raise ValueError(f"'{found.name}' has no table to plot, only numbers.\nhint: use to_pandas().")
+        raise ValueError(
+            f"'{found.name}' has no table to plot, only numbers.\nhint: use to_pandas()."
+        )
     if column is None and found.name == "density":
         return density(found, ax=ax)
     if column is None and found.name == "flow":
@@ -210,13 +271,18 @@ def measured(found: Measured, column: Optional[str] = None, *, ax: Optional[Axes
 
 
 def series(found: Any, column: str = "mean_by_time", *, ax: Optional[Axes] = None) -> Axes:
-    """A column of a series against the period, with the warm-up in grey. `found` is a series or a result that has one."""
+    """A column of a series against the period, with the warm-up in grey. `found` is a series or a
+    result that has one."""
     _require(found, (Series, Result), "a swirl.Series or a result")
     of_periods = found if isinstance(found, Series) else found.series
     if of_periods is None:
         raise ValueError("the result has no series.\nhint: use swirl.run(series=True).")
     axes = _axes(ax)
-    period, values, is_counted = of_periods["period"], of_periods[column], of_periods["counted"] == 1
+    period, values, is_counted = (
+        of_periods["period"],
+        of_periods[column],
+        of_periods["counted"] == 1,
+    )
     axes.plot(period, values, color="0.7", lw=0.8)
     axes.plot(period[is_counted], values[is_counted], lw=1)
     axes.axhline(0, color="0.6", lw=0.8)
@@ -228,7 +294,10 @@ def crossing(found: Any, *, ax: Optional[Axes] = None) -> Axes:
     """The points of a swirl.Crossing with their errors, and N_c with its error as a band."""
     _require(found, (Crossing,), "a swirl.Crossing")
     axes = _axes(ax)
-    discs, rates, errors = ([point[name] for point in found.points] for name in ("discs", found.rate, f"{found.rate}_error"))
+    discs, rates, errors = (
+        [point[name] for point in found.points]
+        for name in ("discs", found.rate, f"{found.rate}_error")
+    )
     axes.errorbar(discs, rates, errors, marker="o", ms=3, lw=1, capsize=2)
     axes.axhline(0, color="0.6", lw=0.8)
     if math.isfinite(found.discs):
@@ -240,8 +309,9 @@ def crossing(found: Any, *, ax: Optional[Axes] = None) -> Axes:
 
 
 def result(found: Any, what: Optional[str] = None, *, ax: Optional[Axes] = None) -> Axes:
-    """A result of a run or of a recording: "series", a measurement such as "density", or a table such as "wall.profile".
-    The default is the first of these that the result has, and otherwise the rotation against the number of discs."""
+    """A result of a run or of a recording: "series", a measurement such as "density", or a table
+    such as "wall.profile". The default is the first of these that the result has, and otherwise the
+    rotation against the number of discs."""
     _require(found, (Result, Analysis), "a result of swirl.run() or swirl.analyse()")
     tables = {each.name: each for of in found.measured.values() for each in of.tables.values()}
     drawable = [name for name, of in found.measured.items() if of.tables]
@@ -251,13 +321,20 @@ def result(found: Any, what: Optional[str] = None, *, ax: Optional[Axes] = None)
         return rotation([found], ax=ax)
     names = list(dict.fromkeys([*drawable, *tables]))
     if not names:
-        raise ValueError("there is no table to plot.\nhint: use measure=[\"density\"].")
+        raise ValueError('there is no table to plot.\nhint: use measure=["density"].')
     name = names[0] if what is None else what
     if name not in names:
-        raise ValueError(f"the result has no '{_engine.shortened(str(name))}' to plot; it has {', '.join(names)}.")
+        raise ValueError(
+            f"the result has no '{_engine.shortened(str(name))}' to plot; it has "
+            f"{', '.join(names)}."
+        )
     if name == "series":
         return series(found, ax=ax)
-    return measured(found.measured[name], ax=ax) if name in found.measured else table(tables[name], ax=ax)
+    return (
+        measured(found.measured[name], ax=ax)
+        if name in found.measured
+        else table(tables[name], ax=ax)
+    )
 
 
 def _results(runs: Any) -> list[Result]:
