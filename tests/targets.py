@@ -21,7 +21,7 @@ LAYERS = {
         "study",
     )
 }
-LAYERS |= {f"track/tests/{part}": f"track_{part}" for part in ("tables", "experiment", "video")}
+LAYERS |= {f"track/tests/{part}": f"track_{part}" for part in ("experiment", "video")}
 # What scripts with a label need; "help" builds nothing, and "" is everything.
 SCRIPTS = {
     "cli": "swirl python_module",

@@ -12,14 +12,14 @@
 #include "calls.hpp"
 #include "frames.hpp"
 #include "reports.hpp"
+#include "swirl/io/equal_steps.hpp"
 #include "swirl/io/series.hpp"
+#include "swirl/io/track_repair.hpp"
+#include "swirl/io/tracks.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
-#include "track/tables/equal_steps.hpp"
-#include "track/tables/track_fit.hpp"
-#include "track/tables/track_repair.hpp"
-#include "track/tables/tracks.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl::python {
 namespace {

@@ -1,7 +1,7 @@
 // Frames of another program: a LAMMPS dump.
 #include "fuzzed_file.hpp"
 #include "swirl/io/file_error.hpp"
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swirl;

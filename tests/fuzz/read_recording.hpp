@@ -12,8 +12,8 @@
 #include "fuzzed_file.hpp"
 #include "swirl/io/event_log.hpp"
 #include "swirl/io/file_error.hpp"
+#include "swirl/io/track_recording.hpp"
 #include "swirl/io/trajectory.hpp"
-#include "track/tables/track_recording.hpp"
 
 namespace swirl {
 

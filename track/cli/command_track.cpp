@@ -25,7 +25,7 @@
 #include "swirl/render/label.hpp"
 #include "swirl/render/movie.hpp"
 #include "swirl/render/movie_file.hpp"
-#include "track/tables/tracked_source.hpp"
+#include "swirl/render/tracked_source.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
 #endif

@@ -3,13 +3,13 @@
 #include <cmath>
 #include <utility>
 
+#include "swirl/io/tracks.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
-#include "track/tables/track_fit.hpp"
-#include "track/tables/tracks.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl {
 namespace {

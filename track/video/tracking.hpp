@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 #include "track/video/camera_motion.hpp"
 #include "track/video/lens.hpp"
 #include "track/video/link.hpp"

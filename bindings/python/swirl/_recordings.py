@@ -151,9 +151,9 @@ class Tracks(Recording):
     outside the container or overlapping.
 
     Short gaps are filled. Positions are smoothed according to their noise, and velocities are
-    derivatives of the smoothed positions (track/tables/track_smoothing.hpp). With fewer than a
+    derivatives of the smoothed positions (swirl/io/track_smoothing.hpp). With fewer than a
     hundred frames per period, positions stay as they are, and velocities are differences between
-    frames (track/tables/tracks.hpp).
+    frames (swirl/io/tracks.hpp).
 
     Raises ValueError or TypeError for wrong arguments, and swirl.Failure with the likely cause if
     more frames contradict these arguments."""

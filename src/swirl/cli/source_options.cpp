@@ -15,9 +15,9 @@
 #include "swirl/render/label.hpp"
 #include "swirl/render/numbered_frames.hpp"
 #include "swirl/render/page.hpp"
+#include "swirl/render/tracked_source.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
-#include "track/tables/tracked_source.hpp"
 #endif
 
 namespace swirl {

@@ -13,12 +13,12 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/optional_file.hpp"
+#include "swirl/io/track_recording.hpp"
+#include "swirl/io/track_repair.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/parse_json.hpp"
-#include "track/tables/track_recording.hpp"
-#include "track/tables/track_repair.hpp"
 
 namespace swirl {
 namespace {

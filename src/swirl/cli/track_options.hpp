@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "swirl/cli/options.hpp"
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 namespace swirl {
 
@@ -39,7 +39,7 @@ bool is_named_as_tracks(const std::string& file);
 /// True if the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.
 bool is_trajectory(const std::string& file);
 /// Reads tracks (HDF5, trackpy table or LAMMPS dump, by their first bytes) and repairs them
-/// (track/tables/track_repair.hpp). Throws FileError.
+/// (swirl/io/track_repair.hpp). Throws FileError.
 Tracks read_tracks(const std::string& file, const TrackScale& scale);
 /// Key `format` of a .camera.json; a file without it has format 1.
 inline constexpr int camera_format = 1;

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "swirl/io/equal_steps.hpp"
 #include "swirl/run/failure.hpp"
-#include "track/tables/equal_steps.hpp"
-#include "track/tables/track_fit.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl {
 namespace {

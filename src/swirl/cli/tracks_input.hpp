@@ -5,7 +5,7 @@
 
 #include "swirl/cli/track_options.hpp"
 #include "swirl/io/series.hpp"
-#include "track/tables/track_fit.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl {
 

@@ -17,9 +17,9 @@
 #include "swirl/io/child_process.hpp"
 #include "swirl/io/event_log.hpp"
 #include "swirl/io/system_calls.hpp"
+#include "swirl/io/track_recording.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/run/failure.hpp"
-#include "track/tables/track_recording.hpp"
 
 namespace swirl {
 namespace {

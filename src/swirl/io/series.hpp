@@ -31,7 +31,7 @@ struct SnapshotSeries {
     std::function<Snapshot(std::uint64_t)> frame;
     /// Frames whose discs differ from those of the frame before, ascending.
     std::vector<std::uint64_t> breaks = {};
-    /// Smoothing reduces velocities (track/tables/track_smoothing.hpp). The mean of ½u² per disc, with u
+    /// Smoothing reduces velocities (swirl/io/track_smoothing.hpp). The mean of ½u² per disc, with u
     /// relative to the container, is larger by this value than that of the smoothed velocities.
     double missing_energy = 0.0;
     /// False if the path of the container is known to have no M-frame.

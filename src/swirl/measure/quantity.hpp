@@ -105,7 +105,7 @@ enum class Per : std::uint8_t {
 
 /// Frames per period of a recording below which a value is biased by more than a third of its error
 /// in 400 periods, and is n/a. 0 if a frame now and then shows the value. Measured with 5, 12 and 48
-/// discs (track/tests/tables/frame_rates_test.cpp).
+/// discs (tests/run/frame_rates_test.cpp).
 struct MinRates {
     double of_frames;  // frames that hold velocities
     double of_tracks;  // positions alone: velocities are differences, which miss collisions

@@ -34,7 +34,7 @@
 
 #include <cmath>
 
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 namespace swirl {
 

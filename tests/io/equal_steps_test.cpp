@@ -1,17 +1,17 @@
 // Tracks at uneven times, of a disc that goes round in a container that goes round.
-#include "track/tables/equal_steps.hpp"
+#include "swirl/io/equal_steps.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "track/tables/seen_container.hpp"
+#include "swirl/io/seen_container.hpp"
 
 namespace swirl {
 namespace {
 
 constexpr double radius = 80.0;     // pixels, of the disc's path in the container
-constexpr double rotations = 0.35;  // of the disc, relative to the container's
+constexpr double rotations = 0.35;  // those of the disc, relative to the container's
 
 TrackScale scale() {
     TrackScale scale;

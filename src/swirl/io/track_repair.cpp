@@ -1,4 +1,4 @@
-#include "track/tables/track_repair.hpp"
+#include "swirl/io/track_repair.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "swirl/io/series.hpp"
-#include "track/tables/track_smoothing.hpp"
-#include "track/tables/tracks.hpp"
+#include "swirl/io/track_smoothing.hpp"
+#include "swirl/io/tracks.hpp"
 
 namespace swirl {
 

@@ -9,17 +9,17 @@
 #include <utility>
 #include <vector>
 
+#include "swirl/io/track_smoothing.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/run.hpp"
-#include "track/tables/track_fit.hpp"
-#include "track/tables/track_smoothing.hpp"
+#include "swirl/run/track_fit.hpp"
 
 namespace swirl {
 namespace {
 
-constexpr double pixels = 26.0;  // per radius, as in the laboratory
+constexpr double pixels = 26.0;  // pixels per radius, as in the laboratory
 
 std::vector<Snapshot> recorded_run(int frames_per_period) {
     RunConfig config;
@@ -75,7 +75,7 @@ Tracks camera_tracks(const std::vector<Snapshot>& frames, double noise) {
 struct Found {
     Estimate temperature, pinning, depinning;
     Estimate squared_path;  // relative to the container, in 1/73 of a period
-    Estimate speed;         // of the profile, mean over its slices
+    Estimate speed;         // profile, mean over its slices
 };
 
 /// Mean and mean error of a column over the rows that were visited.
@@ -254,7 +254,7 @@ TEST(SmoothedTracks, HalvesErrorsAndEstimatesThem) {
 TEST(SmoothedTracks, ExactPositionsAreUnchanged) {
     Tracks tracks = camera_tracks(laboratory(), 0.0);
     ASSERT_TRUE(smooth(tracks, scale_of(laboratory())).done);
-    EXPECT_LT(deviations(laboratory(), tracks).position_rms, 0.005);  // of 26 pixels
+    EXPECT_LT(deviations(laboratory(), tracks).position_rms, 0.005);  // a radius has 26 pixels
 }
 
 // Clockwise motion in an image with y down must use the matching container path.
@@ -268,7 +268,7 @@ TEST(SmoothedTracks, MirroredTracksGiveMirroredVelocities) {
     scale.swirl_centre = {0.0, 300.0};
     smooth(mirrored, scale);
     const Vec2 v = upright.frames[700].velocity[7], w = mirrored.frames[700].velocity[7];
-    EXPECT_NEAR(w.x, v.x, 1e-9);  // of some ten
+    EXPECT_NEAR(w.x, v.x, 1e-9);  // the values are about ten
     EXPECT_NEAR(w.y, -v.y, 1e-9);
     for (TrackFrame& f : mirrored.frames) {
         for (Vec2& p : f.position) p.x = 500.0 - p.x;

@@ -1,4 +1,4 @@
-#include "track/tables/tracked_source.hpp"
+#include "swirl/render/tracked_source.hpp"
 
 #include <fmt/format.h>
 

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "swirl/io/tracks.hpp"
 #include "swirl/math/vec2.hpp"
 #include "swirl/render/frame_source.hpp"
 #include "swirl/render/image.hpp"
-#include "track/tables/tracks.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "track/tables/track_fit.hpp"
+#include "swirl/run/track_fit.hpp"
 
 #include <fmt/format.h>
 
@@ -19,11 +19,11 @@ namespace {
 constexpr std::uint64_t max_frames = 400, max_positions = 40000;
 // A tracker's positions are accurate to a few hundredths of a radius.
 constexpr double protrusion = 0.2;  // radii
-constexpr double overlap = 0.85;    // of the sum of two radii
+constexpr double overlap = 0.85;    // fraction of the sum of two radii
 // In a swirled container, discs are always flung against the wall and each other.
 constexpr double far_from_wall = 0.5;  // radii
-constexpr double far_apart = 1.15;     // of the sum of two radii
-constexpr double hardly_ever = 0.1;    // of the frames
+constexpr double far_apart = 1.15;     // fraction of the sum of two radii
+constexpr double hardly_ever = 0.1;    // fraction of the frames
 constexpr std::size_t many_frames = 50, many_discs = 8;
 // Thresholds of the possible causes, in radii.
 constexpr double off_centre = 0.7, constant_gap = 0.35;
@@ -203,11 +203,11 @@ Vec2 in_image(const Vec2& position, const TrackScale& scale, bool y_down) {
 
 /// Statistics of the frames of a series, before it is compared with the parameters.
 struct Survey {
-    std::vector<double> gaps, pairs, radii;  // of each frame with discs
+    std::vector<double> gaps, pairs, radii;  // one for each frame with discs
     FittingPhase fitting;
     std::size_t max_discs = 0;
-    double periods = 0.0;   // between the first and the last frame
-    Vec2 centre{0.0, 0.0};  // of all positions
+    double periods = 0.0;   // time between the first and the last frame
+    Vec2 centre{0.0, 0.0};  // mean of all positions
 };
 
 Survey survey_of(const SnapshotSeries& series, const TrackScale& scale) {

@@ -1,4 +1,4 @@
-#include "track/tables/tracked_source.hpp"
+#include "swirl/render/tracked_source.hpp"
 
 #include <gtest/gtest.h>
 
@@ -92,7 +92,7 @@ TEST(TrackedSource, MotionOfTheCameraMovesTheImageUnderThePositions) {
             EXPECT_NEAR(found.y, expected.y, 1e-12);
         }
     }
-    for (const std::int64_t frame : {4, 8}) {  // outside the tracks
+    for (const std::int64_t frame : {4, 8}) {  // both are outside the tracks
         EXPECT_EQ(motion.applied(steady, frame).origin.x, steady.origin.x);
         EXPECT_EQ(motion.applied(steady, frame).along_x.x, steady.along_x.x);
     }

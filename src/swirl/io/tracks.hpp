@@ -64,7 +64,7 @@ struct TrackScale {
                                     // counter-clockwise from +x
     double container_radius = 0.0;  // unit: disc radii
     bool clockwise = false;         // the container moves clockwise in the image: mirror x
-    bool calibrated = false;        // by `swirl track`, not by the user
+    bool calibrated = false;        // `swirl track` set it, not the user
 
     /// T, and the camera's unit of time, in units of the result.
     double our_period() const;

@@ -1,4 +1,4 @@
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 
 #include "io/scratch.hpp"
 #include "swirl/io/file_error.hpp"
-#include "track/tables/track_repair.hpp"
+#include "swirl/io/track_repair.hpp"
 
 namespace swirl {
 namespace {

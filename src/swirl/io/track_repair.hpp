@@ -15,7 +15,7 @@
 // radius per frame, positions cannot identify discs, and the given IDs are kept.
 #pragma once
 
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 namespace swirl {
 

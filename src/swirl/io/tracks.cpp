@@ -1,4 +1,4 @@
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,8 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/number_table.hpp"
 #include "swirl/io/range_checks.hpp"
+#include "swirl/io/track_repair.hpp"
 #include "swirl/math/unit_circle.hpp"
-#include "track/tables/track_repair.hpp"
 
 namespace swirl {
 namespace {
@@ -164,7 +164,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     };
     std::map<std::int64_t, std::map<std::int64_t, Entry>> tracks;  // keys: particle and frame
     std::optional<std::size_t> radius, spin, time;
-    std::map<std::int64_t, double> times;  // of each frame
+    std::map<std::int64_t, double> times;  // time of each frame
     if (table.find({"seen"})) {            // a file of `swirl track`
         radius = table.find({"radius"});
         spin = table.find({"spin"});

@@ -1,8 +1,8 @@
 // Where the container is in the image, by the calibration of tracks.
 #pragma once
 
+#include "swirl/io/tracks.hpp"
 #include "swirl/math/unit_circle.hpp"
-#include "track/tables/tracks.hpp"
 
 namespace swirl {
 

@@ -1,4 +1,4 @@
-#include "track/tables/track_recording.hpp"
+#include "swirl/io/track_recording.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "track/tables/track_recording.hpp"
+#include "swirl/io/track_recording.hpp"
 
 #include <fmt/format.h>
 
@@ -157,7 +157,7 @@ class TrackReader {
   private:
     /// Times of equal steps are those of the frame numbers, which readers use.
     bool has_uneven_times() const {
-        constexpr double rounding = 1e-6;  // of a step
+        constexpr double rounding = 1e-6;  // fraction of a step
         if (time_.empty() || number_.size() < 3) return false;
         const double step =
             (time_.back() - time_.front()) / double(number_.back() - number_.front());

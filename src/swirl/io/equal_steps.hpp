@@ -10,7 +10,7 @@
 // missing in the result; a container at rest adds no frames.
 #pragma once
 
-#include "track/tables/tracks.hpp"
+#include "swirl/io/tracks.hpp"
 
 namespace swirl {
 

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
+#include "swirl/io/tracks.hpp"
 #include "swirl/measure/quantities.hpp"
 #include "swirl/measure/sample_times.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
 #include "swirl/run/run.hpp"
-#include "track/tables/tracks.hpp"
 
 namespace swirl {
 namespace frame_rates {
@@ -150,9 +150,9 @@ Measured measured(const RunConfig& config, const std::vector<int>& rates) {
 
 /// The difference of a number in recordings and runs: root mean square over the cells of its table.
 struct Difference {
-    double bias = 0.0;     // of the means over the seeds
+    double bias = 0.0;     // deviation of the means over the seeds
     double scatter = 0.0;  // its standard error
-    double error = 0.0;    // of the number in 400 periods
+    double error = 0.0;    // error of the number in 400 periods
 };
 
 /// Differences of angles are on the circle.

@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "swirl/io/tracks.hpp"
 #include "swirl/io/trajectory.hpp"
-#include "track/tables/tracks.hpp"
 
 namespace swirl {
 

@@ -1,10 +1,10 @@
-#include "track/tables/equal_steps.hpp"
+#include "swirl/io/equal_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "track/tables/seen_container.hpp"
+#include "swirl/io/seen_container.hpp"
 
 namespace swirl {
 namespace {

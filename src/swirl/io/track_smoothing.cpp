@@ -1,19 +1,19 @@
-#include "track/tables/track_smoothing.hpp"
+#include "swirl/io/track_smoothing.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <vector>
 
+#include "swirl/io/seen_container.hpp"
+#include "swirl/io/track_repair.hpp"
 #include "swirl/math/unit_circle.hpp"
-#include "track/tables/seen_container.hpp"
-#include "track/tables/track_repair.hpp"
 
 namespace swirl {
 namespace {
 
 constexpr std::size_t min_samples = 400;  // gives the noise to a few per cent
-constexpr int rounds = 8;                 // of kicks and smoothing; they have converged by then
+constexpr int rounds = 8;                 // kicks and smoothing have converged by then
 constexpr int undamped_rounds = 2;
 constexpr double rarest_kick = 1e-6;  // keeps log odds finite
 constexpr double initial_share = 0.1;
@@ -25,9 +25,9 @@ constexpr double kick_in_speeds = 3.0, push_in_turns = 3.0;
 /// frame.
 struct TrackSegment {
     std::vector<std::size_t> frame, disc;                      // indices into the tracks
-    std::vector<double> elapsed;                               // to the next position
+    std::vector<double> elapsed;                               // time to the next position
     std::vector<Vec2> position, velocity;                      // velocity per frame
-    std::vector<double> position_variance, velocity_variance;  // per coordinate
+    std::vector<double> position_variance, velocity_variance;  // variances per coordinate
     std::vector<double> kick;  // variance of the kick before the next position
 
     std::size_t size() const { return position.size(); }
@@ -146,7 +146,7 @@ class Smoother {
             column->resize(n);
         score_.resize(n);
         segment_.velocity.resize(n);
-        Vec2 rx{0.0, 0.0}, rv{0.0, 0.0};  // of the next position and velocity
+        Vec2 rx{0.0, 0.0}, rv{0.0, 0.0};  // residuals at the next position and velocity
         Symmetric N{0.0, 0.0, 0.0};
         for (std::size_t k = n; k-- > 0;) {
             const double t = segment_.elapsed[k];
@@ -189,7 +189,7 @@ class Smoother {
 /// Variances of the velocity change between two frames, for a small push and for a kick.
 struct KickModel {
     double push, kick;
-    double share;  // of frames that are followed by a kick
+    double share;  // fraction of frames that are followed by a kick
 
     double mean(double probable) const { return probable * kick + (1.0 - probable) * push; }
     /// Probability of a kick, given its estimate.
