@@ -47,32 +47,12 @@ def number(value):
     )
 
 
-def over_seeds(means, errors=None, weights=(), effective=None, directions=False):
-    """Mean, error, effective samples, scatter and disagreement over the runs, of one quantity or of
-    rows of several: arrays [row, run]. Without errors of the runs, the error is that between
-    them."""
-    means = np.asarray(means, dtype=float)
-    rows = np.atleast_2d(means)
-    errors = (
-        np.full(rows.shape, np.nan)
-        if errors is None
-        else np.atleast_2d(np.asarray(errors, dtype=float))
-    )
-    effective = (
-        np.zeros(rows.shape)
-        if effective is None
-        else np.atleast_2d(np.asarray(effective, dtype=float))
-    )
-    found = swirl._engine.over_replicates(rows, errors, effective, list(weights), directions)
-    return tuple(column[0] for column in found) if means.ndim == 1 else found
-
-
 def means(runs, names):
     """{name: mean over the runs, name_error: its error} of quantities of single runs."""
     return {
         f"{name}{end}": value
         for name in names
-        for end, value in zip(("", "_error"), over_seeds([number(run[name]) for run in runs]))
+        for end, value in zip(("", "_error"), swirl.mean([number(run[name]) for run in runs]))
     }
 
 
@@ -87,7 +67,7 @@ def steadiness(result):
 
 def min_periods():
     """The length of a run that is averaged, if any run is that long; from the program."""
-    return swirl._engine.min_averaged_periods
+    return swirl.min_averaged_periods
 
 
 def too_short_to_average(run):
@@ -101,20 +81,25 @@ def is_average(node):
     return isinstance(node, dict) and "mean" in node and "error" in node
 
 
-def average(nodes, weights, direction=False):
+def average(nodes, periods, direction=False):
+    """The mean of averages over runs that count as these lengths, or the same if there are none."""
     columns = [
         [number(node.get(name)) for node in nodes]
         for name in ("mean", "error", "effective_samples")
     ]
-    mean, error, effective, scatter, disagree = over_seeds(
-        columns[0], columns[1], weights, np.nan_to_num(columns[2]), direction
+    mean, error, effective, scatter, disagree = swirl.mean(
+        columns[0],
+        columns[1],
+        periods=periods,
+        effective_samples=np.nan_to_num(columns[2]),
+        directions=direction,
     )
     found = {
         "mean": mean,
         "error": error,
         "effective_samples": effective,
         "scatter": scatter,
-        "disagree": bool(disagree),
+        "disagree": disagree,
     }
     for name in nodes[0]:  # further numbers have no errors: counts add up, others are averaged
         if name not in found and name != "blocks":
@@ -135,7 +120,7 @@ def mean_cell(cells):
     )
 
 
-def table(nodes, weights, path):
+def table(nodes, periods, path):
     """A table of a measurement: {column: values}. Errors are in the columns NAME_error."""
     found = {}
     for name in nodes[0]:
@@ -146,10 +131,10 @@ def table(nodes, weights, path):
             errors = np.array(
                 [[number(cell) for cell in node[f"{name}_error"]] for node in nodes]
             ).T
-            columns = over_seeds(
-                cells, errors, weights, directions=swirl._engine.is_direction(f"{path}.{name}")
+            column = swirl.mean(
+                cells, errors, periods=periods, directions=swirl.is_direction(f"{path}.{name}")
             )
-            found[name], found[f"{name}_error"] = columns[0].tolist(), columns[1].tolist()
+            found[name], found[f"{name}_error"] = column.mean.tolist(), column.error.tolist()
         else:
             found[name] = [
                 sum(row) if name == "visits" else mean_cell(list(row)) for row in cells.tolist()
@@ -157,23 +142,23 @@ def table(nodes, weights, path):
     return found
 
 
-def measured(nodes, weights, path):
+def measured(nodes, periods, path):
     """Combines averages, tables and numbers, at any depth. `path`: the name in the registry of
     quantities, as in "residence.sensitivity"."""
     first = nodes[0]
     if is_average(first):
-        return average(nodes, weights, swirl._engine.is_direction(path))
+        return average(nodes, periods, swirl.is_direction(path))
     if not isinstance(first, dict):
         return mean_cell([number(node) for node in nodes])
     column = next(iter(first.values()), None)
     if isinstance(column, list) and column and not isinstance(column[0], (list, dict)):
-        return table(nodes, weights, path)
+        return table(nodes, periods, path)
     return {
-        name: measured([node[name] for node in nodes], weights, f"{path}.{name}") for name in first
+        name: measured([node[name] for node in nodes], periods, f"{path}.{name}") for name in first
     }
 
 
-def common_measurements(runs, weights):
+def common_measurements(runs, periods):
     """{"measured": …} with the measurements of all runs. Points share runs, so some may have more
     than others."""
     made = [run.get("measured", {}) for run in runs]
@@ -181,7 +166,7 @@ def common_measurements(runs, weights):
     return (
         {
             "measured": {
-                name: measured([each[name] for each in made], weights, name) for name in names
+                name: measured([each[name] for each in made], periods, name) for name in names
             }
         }
         if names
@@ -231,9 +216,7 @@ def combined(results):
     if not all(map(too_short_to_average, runs)):
         runs = [r for r in runs if not too_short_to_average(r)]
     seeds["averaged"] = len(runs)
-    periods = swirl._engine.replicate_weights(
-        [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs], True
-    )
+    periods = [number(r["periods"]) - number(at(r, "warmup", "periods")) for r in runs]
 
     def mean(*path):
         return sum(number(at(run, *path)) for run in runs) / len(runs)
@@ -258,5 +241,5 @@ def combined(results):
             "disagree": rotation["mean_by_event"]["disagree"],
         },
         "steady_state": {"verdict": verdict_of(seeds)},
-        "state_hash": hashes[0] if len(hashes) == 1 else swirl._engine.checksum("".join(hashes)),
+        "state_hash": hashes[0] if len(hashes) == 1 else swirl.checksum("".join(hashes)),
     }

@@ -19,8 +19,8 @@ import sys
 
 import numpy as np
 
-from combine import over_seeds
 from curves import CERTAIN, with_error
+from engine import swirl
 from micropolar import RELATIONS, fit, fit_relation
 
 COEFFICIENTS = [relation for relation in RELATIONS if relation.name != "angle"]
@@ -417,7 +417,7 @@ def measured_rotation(fields, period):
         / (2.0 * np.pi)
         for ux, uy, packing in zip(fields["u_x"], fields["u_y"], fields["packing"])
     ]
-    return over_seeds(rates)[:2]
+    return swirl.mean(rates)[:2]
 
 
 def print_flow(arguments):

@@ -36,7 +36,7 @@ def dish_run(dish, discs):
 
 def resolved(parameters):
     """All parameters of a run."""
-    return json.loads(swirl._engine.resolve(parameters))
+    return swirl.resolve(**parameters)
 
 
 def period_of(parameters):

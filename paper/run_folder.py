@@ -28,7 +28,8 @@ def by_measurements(tasks):
 def files_of(folder, tasks):
     """[[(file of the result, file of the error message)]] for each task; [] if the sweep does not
     have its run."""
-    return swirl._engine.result_files(folder, [task.parameters for task in tasks], 1)
+    points = [task.parameters for task in tasks]
+    return swirl.SweepFolder(folder).files(points) if points else []
 
 
 def plan(out, tasks):
@@ -37,15 +38,15 @@ def plan(out, tasks):
     with open(os.path.join(out, "runs", "lock"), "w", encoding="utf-8") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)
         for measure, here in by_measurements(tasks):
-            folder = folder_of(out, measure)
-            if not optional_file.exists(os.path.join(folder, "plan.json")):
-                swirl._engine.Plan(
-                    {}, 1, list(measure), 0, rows=[task.parameters for task in here]
-                ).write(folder)
+            folder = swirl.SweepFolder(folder_of(out, measure))
+            if not folder.is_planned:
+                folder.plan(points=[task.parameters for task in here], measure=measure)
             elif new := [
-                task.parameters for task, files in zip(here, files_of(folder, here)) if not files
+                task.parameters
+                for task, files in zip(here, files_of(folder.path, here))
+                if not files
             ]:
-                swirl._engine.grow(folder, {}, 1, [], new)
+                folder.grow(points=new)
 
 
 def take(folder, tasks):
@@ -61,8 +62,8 @@ def take(folder, tasks):
             if text is None:
                 continue
             try:
-                stored, checksum = json.loads(text), swirl._engine.checksum(text)
-                if stored["version"] != swirl._engine.version():
+                stored, checksum = json.loads(text), swirl.checksum(text)
+                if stored["version"] != swirl.version():
                     known.pop(name, None)
                     other_versions.keep(file, stored["version"])
                     continue
@@ -86,9 +87,9 @@ def find(out, tasks):
     them."""
     for name in optional_file.names_in(os.path.join(out, "runs")):
         folder, has = os.path.join(out, "runs", name), set(name.split("+"))
-        if not optional_file.exists(os.path.join(folder, "plan.json")):
-            continue
-        take(folder, [task for task in tasks if task.result is None and set(task.measure) <= has])
+        if swirl.SweepFolder(folder).is_planned:
+            left = [task for task in tasks if task.result is None and set(task.measure) <= has]
+            take(folder, left)
 
 
 def make(out, measure, tasks, threads, progress):
@@ -96,11 +97,10 @@ def make(out, measure, tasks, threads, progress):
     makes."""
     folder, left = folder_of(out, measure), tasks
     while left:
-        swirl._engine.sweep(
-            folder,
-            threads,
-            lambda done, runs, _: progress(done / runs if runs else 1.0),
-            [task.parameters for task in left],
+        swirl.SweepFolder(folder).run(
+            points=[task.parameters for task in left],
+            threads=threads,
+            progress=lambda done, runs, _: progress(done / runs if runs else 1.0),
         )
         take(folder, left)
         for task, [(_, failure)] in zip(left, files_of(folder, left)):

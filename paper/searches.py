@@ -1,6 +1,5 @@
 """Searches for N_c as points of a figure."""
 
-import json
 import math
 
 from combine import number
@@ -12,15 +11,9 @@ PARTS = ("N_c", "N_c_error", "N_c_lower", "N_c_upper")
 
 
 def search(parameters):
-    parameters = dict(parameters)
-    given = {
-        name: parameters.pop(name)
-        for name in ("min_discs", "max_discs", "tolerance", "min_periods")
-    }
-    text, report = swirl._engine.crossing(
-        None, parameters, rate="mean_by_time", threads=1, command="", progress=None, **given
-    )
-    return {**json.loads(text), "report": report}
+    """The complete result of a search. It has no command: that of the figure makes it."""
+    crossing = swirl.crossing(threads=1, **parameters)
+    return {**crossing.found, "command": "", "report": crossing.sentence}
 
 
 def search_point(

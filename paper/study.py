@@ -111,11 +111,9 @@ class Task:
         self.result, self.seconds = None, 0.0
         if work:
             self.identity = repr((sorted(parameters.items()), f"{work.__module__}.{work.__name__}"))
-            self.key = (
-                f"{name}_seed{parameters['seed']}_{swirl._engine.checksum(self.identity)[:8]}"
-            )
+            self.key = f"{name}_seed{parameters['seed']}_{swirl.checksum(self.identity)[:8]}"
         else:
-            self.key = swirl._engine.run_identity(parameters)
+            self.key = swirl.run_identity(**parameters)
 
     def file(self, out):
         return os.path.join(out, "parts", f"{self.key}.json")
@@ -132,7 +130,7 @@ class Task:
     def find(self, out):
         """Takes the stored result of `work`, if it is of this version."""
         stored = atomic_file.stored(self.file(out))
-        if stored and stored["version"] != swirl._engine.version():
+        if stored and stored["version"] != swirl.version():
             other_versions.keep(self.file(out), stored["version"])
         elif stored and stored["identity"] == self.identity:
             self.result, self.seconds = stored["result"], stored["seconds"]
@@ -194,7 +192,7 @@ def do(job):
         return k, {"result": failure, "seconds": time.monotonic() - begin}
     stored = {
         "identity": task.identity,
-        "version": swirl._engine.version(),
+        "version": swirl.version(),
         "seconds": time.monotonic() - begin,
         "result": result,
     }

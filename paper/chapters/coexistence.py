@@ -180,7 +180,10 @@ def row_of(cells, runs):
         "largest_elongation": max(max(run["elongation"]) for run in runs),
         **means(
             [
-                {"correlation": WINDOW * swirl._engine.estimate_of_series(run["elongation"])[3]}
+                {
+                    "correlation": WINDOW
+                    * swirl.series_mean(run["elongation"]).details["autocorrelation_time"]
+                }
                 for run in runs
             ],
             ["correlation"],

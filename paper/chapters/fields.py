@@ -8,10 +8,10 @@ import math
 import numpy as np
 
 import style
-from combine import at, number, over_seeds
+from combine import at, number
 from curves import with_error
 from dishes import Dish, dish_run
-from engine import result_of
+from engine import result_of, swirl
 from figure import Figure
 from micropolar import RELATIONS, fit_relation
 from runs import length_of, lengths
@@ -97,7 +97,7 @@ def fields_table(points, settings):
     inside, viscosity, words = x * x + y * y < radius * radius, np.full(len(x), math.nan), []
 
     def mean(arrays):
-        return over_seeds(np.array(arrays).T)[:2]
+        return swirl.mean(np.array(arrays).T)[:2]
 
     maps = {name: mean([f[name] for f in seeds]) for name in MAPPED}
     packing = maps["packing"][0]

@@ -15,8 +15,9 @@ import numpy as np
 import style
 from chapters.mechanism import gears_points, mechanism_point, mechanism_run
 from coarse_zero import rise_through
-from combine import at, number, over_seeds
+from combine import at, number
 from curves import CERTAIN, measured_cells, with_error
+from engine import swirl
 from figure import Figure
 from jackknife import jackknife
 from paper_parameters import AMPLITUDE, AMPLITUDES, CONTAINER_RADIUS, EXPERIMENT_DISH, LAST_N
@@ -93,7 +94,7 @@ def rise(discs, slip, left):
 def timing(discs, order, slip):
     """Rows for each q; `order` and `slip` are arrays [seed, N]. Without certain gear order there is
     no loss."""
-    seeds, (means, errors) = np.arange(len(order)), over_seeds(order.T)[:2]
+    seeds, (means, errors) = np.arange(len(order)), swirl.mean(order.T)[:2]
     top = int(np.argmax(means))
     error = errors[top]
     ordered = means[top] - CERTAIN * error > LEAST_ORDER

@@ -2,11 +2,10 @@
 
 import numpy as np
 import style
-from engine import swirl
 import tables
-from combine import over_seeds
 from curves import with_error
 from dishes import Dish, dish_run, period_of
+from engine import swirl
 from figure import Figure
 from study import Point
 
@@ -77,7 +76,7 @@ def table(points, settings):
         up, down = (np.array([run[name] for run in runs]).T for name in ("up", "down"))
         # The difference within each run is more precise than that of the means, if both branches
         # vary with the seed.
-        means = [over_seeds(values) for values in (up, down, down - up)]
+        means = [swirl.mean(values) for values in (up, down, down - up)]
         for k in range(BINS):
             rows.append(
                 {

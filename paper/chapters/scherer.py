@@ -11,7 +11,7 @@ import numpy as np
 
 import style
 import tables
-from combine import means, over_seeds
+from combine import means
 from curves import CERTAIN, listed
 from dishes import resolved
 from figure import Figure

@@ -5,8 +5,9 @@ import math
 
 import style
 import tables
-from combine import at, number, over_seeds, too_short_to_average
+from combine import at, number, too_short_to_average
 from curves import curve_tables, curves_by, lowest_of, with_error
+from engine import swirl
 from figure import Figure
 from paper_parameters import LAST_N
 from runs import (
@@ -87,7 +88,7 @@ def start_points(settings):
 def between_seeds(point):
     """The mean over the seeds with the error between them. The error within a run counts its
     transient as noise, but the transient is part of what is averaged here."""
-    found = over_seeds(
+    found = swirl.mean(
         [
             number(at(run, "rotation", "mean_by_event", "mean"))
             for run in point.runs

@@ -5,7 +5,7 @@ at the wall."""
 import itertools
 
 import style
-from combine import number, over_seeds
+from combine import number
 from curves import with_error
 from engine import swirl
 from figure import Figure
@@ -21,11 +21,12 @@ def ball_run(parameters):
     """γ from the spin, and the direction of the ball about C in the M-frame, in degrees."""
     run = swirl.run(series=True, measure="centre", **parameters)
     spins = run.series["spin"][run.series["counted"] > 0]
-    gamma, theta = (
-        swirl._engine.estimate_of_series([1 - spin for spin in spins]),
-        run.measured["centre"]["theta"],
-    )
-    return {"gamma": gamma[:3], "theta": (theta.mean, theta.error)}
+    gamma = swirl.series_mean([1 - spin for spin in spins])
+    theta = run.measured["centre"]["theta"]
+    return {
+        "gamma": (gamma.mean, gamma.error, gamma.effective_samples),
+        "theta": (theta.mean, theta.error),
+    }
 
 
 def points(settings):
@@ -67,11 +68,11 @@ def table(points, settings):
         runs, cells = point.runs, point.cells
         if not runs:
             continue
-        gamma, error, _, scatter, _ = over_seeds(
+        gamma, error, _, scatter, _ = swirl.mean(
             *zip(*(run["gamma"][:2] for run in runs)),
-            effective=[number(run["gamma"][2]) for run in runs],
+            effective_samples=[number(run["gamma"][2]) for run in runs],
         )
-        theta = over_seeds(*zip(*(map(number, run["theta"]) for run in runs)), directions=True)
+        theta = swirl.mean(*zip(*(map(number, run["theta"]) for run in runs)), directions=True)
         no_slip = CONTAINER_RADIUS / cells["ball_radius"]
         rows.append(
             {

@@ -3,9 +3,9 @@ number of discs, and the granular temperature before and after."""
 
 import numpy as np
 import style
-from combine import at, min_periods, number, over_seeds
+from combine import at, min_periods, number
 from curves import with_error
-from engine import result_of, simulation_of
+from engine import result_of, simulation_of, swirl
 from figure import Figure
 from paper_parameters import COUNTERROTATING_N, ROTATING_N
 from runs import NO_DISC, paper_run, with_periods
@@ -91,7 +91,7 @@ def table(points, settings):
             continue
         found = [run for run in runs if run["condensed"]]
         waiting = [run["periods"] for run in found]
-        mean, error = over_seeds(waiting)[:2] if found else (None, None)
+        mean, error = swirl.mean(waiting)[:2] if found else (None, None)
         longest = max(run["periods"] for run in runs)
         row = {
             "discs": N,
@@ -106,7 +106,7 @@ def table(points, settings):
         for phase in ("before", "after"):
             for column, path in AVERAGES.items():
                 # A transient has no error within a run, since its blocks differ systematically.
-                row[f"{phase}_{column}"], row[f"{phase}_{column}_error"] = over_seeds(
+                row[f"{phase}_{column}"], row[f"{phase}_{column}_error"] = swirl.mean(
                     [number(at(run, phase, *path, "mean")) for run in runs]
                 )[:2]
         rows.append(row)

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import style
-from combine import over_seeds
 from curves import with_error
 from engine import swirl
 from figure import Figure
@@ -48,7 +47,7 @@ def table(points, settings):
         if not runs:
             continue
         varpi, spin = (
-            over_seeds(np.array([run[name] for run in runs]).T) for name in ("varpi", "spin")
+            swirl.mean(np.array([run[name] for run in runs]).T) for name in ("varpi", "spin")
         )
         events = np.mean([run["events"] for run in runs], axis=0)
         periods = len(events)

@@ -39,6 +39,7 @@ def instances(folder):
     video._frames = recording._frames = tracks._frames
     video.quality = {"discs": 2}
     table = swirl.sweep(folder / "sweep", discs=[8, 12], events=2000)
+    sweep = swirl.SweepFolder(folder / "sweep")
     objects = [
         sim,
         sim.snapshot(),
@@ -61,7 +62,10 @@ def instances(folder):
         tracks,
         recording,
         video,
-        swirl.over_seeds([0.1, 0.2]),
+        swirl.mean([0.1, 0.2]),
+        sweep,
+        sweep.run(),
+        sweep.files([{"discs": 8, "events": 2000}])[0][0],
         swirl.compare_points([(8, 4.4, 20), (12, 4.0, 20)], table),
     ]
     found = {type(one): one for one in objects}

@@ -571,11 +571,59 @@ def test_points_are_compared_with_a_table(tmp_path):
         swirl.compare_points([(8, 4.8, 20), (24, 2.4, 0)], table)
 
 
-def test_over_seeds_is_the_mean_of_a_sweep(tmp_path):
+def test_a_sweep_in_steps_is_that_of_one_call(tmp_path):
+    points = [{"discs": 8}, {"discs": 12, "seeds": 2}]
+    whole = swirl.sweep(tmp_path / "whole", points=points, measure="slip", events=3000)
+    steps = swirl.SweepFolder(tmp_path / "steps")
+    assert not steps.is_planned and "without a plan" in repr(steps)
+    steps.plan(points=[{"discs": 8, "events": 3000}], measure=["slip"])
+    steps.grow(points=[{"discs": 12, "seeds": 2, "events": 3000}])
+    with pytest.raises(swirl.Failure, match="holds another sweep"):
+        steps.plan(points=[{"discs": 9}])
+    counts = steps.run(points=[{"discs": 8, "events": 3000}], threads=1)
+    assert counts == (1, 0, 0, "")
+    done, planned = steps.files(
+        [{"discs": 8, "events": 3000}, {"discs": 12, "seeds": 2, "events": 3000}]
+    )
+    assert [os.path.exists(file.result) for file in [*done, *planned]] == [True, False, False]
+    assert steps.files([{"discs": 9, "events": 3000}]) == [[]]
+    assert steps.run().failed == 0 and steps.is_planned
+    pandas.testing.assert_frame_equal(swirl.collect(steps.path), whole)
+
+
+def test_keys_and_parameters_of_a_run():
+    parameters = {"preset": "experiment", "discs": 9, "events": 2000}
+    result = swirl.run(**parameters)
+    assert swirl.resolve(**parameters) == json.loads(result.to_json())["config"]
+    assert swirl.version() == json.loads(result.to_json())["version"]
+    key = swirl.run_identity(discs=48)
+    assert key == swirl.run_identity(mu=1, discs=48) != swirl.run_identity(discs=47)
+    assert swirl.checksum("123456789") == "995dc9bbdf1939fa"  # src/swirl/io/checksum.hpp
+    with pytest.raises(TypeError, match="did you mean 'discs'"):
+        swirl.run_identity(disc=48)
+
+
+def test_a_series_and_directions_have_the_means_of_the_program():
+    result = swirl.run(discs=24, periods=60, warmup=10, measure="centre", series=True)
+    averages = json.loads(result.to_json())["series"]["averages"]["rigid_by_time"]
+    spins = result.series["rigid_by_time"][result.series["counted"] > 0]
+    found = swirl.series_mean(spins)
+    assert found.blocks == len(spins) == 50
+    # The program's series has weights and sums in another order.
+    assert found.mean == pytest.approx(averages["mean"], rel=1e-9)
+    assert found.error == pytest.approx(averages["error"], rel=1e-9)
+    time = averages["autocorrelation_time"]
+    assert found.details["autocorrelation_time"] == pytest.approx(time, rel=1e-9)
+    assert swirl.is_direction("centre.theta") and not swirl.is_direction("slip.cluster")
+    with pytest.raises(TypeError, match="name is 3"):
+        swirl.is_direction(3)
+
+
+def test_mean_is_the_mean_of_a_sweep(tmp_path):
     table = swirl.sweep(tmp_path / "sweep", discs=8, events=[3000], warmup=1, seeds=3)
     found = swirl.map(discs=8, events=[3000], warmup=1, seeds=3)
     rates = [run.rotation.mean_by_time for run in found]
-    mean = swirl.over_seeds(
+    mean = swirl.mean(
         [r.mean for r in rates],
         [r.error for r in rates],
         periods=[run.periods - run.warmup for run in found],
@@ -584,7 +632,7 @@ def test_over_seeds_is_the_mean_of_a_sweep(tmp_path):
     assert mean.mean == pytest.approx(table["mean_by_time"][0], rel=1e-12)
     assert mean.error == pytest.approx(table["mean_by_time_error"][0], rel=1e-9)
     # Short runs are left out, unless all are short.
-    assert swirl.over_seeds([1, 3, 99], periods=[10, 10, 2]).mean == 2
-    assert swirl.over_seeds([1, 3], periods=[1, 3], by_time=False).mean == 2
-    assert swirl.over_seeds([[1, 3], [2, 4]]).mean.tolist() == [2, 3]
-    assert np.cos(np.radians(swirl.over_seeds([350, 10], directions=True).mean)) == pytest.approx(1)
+    assert swirl.mean([1, 3, 99], periods=[10, 10, 2]).mean == 2
+    assert swirl.mean([1, 3], periods=[1, 3], by_time=False).mean == 2
+    assert swirl.mean([[1, 3], [2, 4]]).mean.tolist() == [2, 3]
+    assert np.cos(np.radians(swirl.mean([350, 10], directions=True).mean)) == pytest.approx(1)

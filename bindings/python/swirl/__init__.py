@@ -13,22 +13,33 @@ from . import plot as plot
 from ._arguments import closed as _closed
 from ._display import shown_in_notebooks as _shown_in_notebooks
 from ._engine import Event, Failure, FileError, Frames, Snapshot
+from ._engine import min_averaged_periods as min_averaged_periods
 from ._engine import samples_per_period as samples_per_period
-from ._engine import version as _version
 from ._estimates import ArrayEstimate, Estimate, with_error
 from ._lab import Lab, lab
 from ._points import PointComparison, compare_points
 from ._recordings import Analysis, Recording, Tracks, Trajectory, analyse
 from ._results import EventCounts, Measured, Result, Rotation, Series, Table
-from ._runs import Interrupted, Parameter, measurements, parameters, run
+from ._means import SeedMean, is_direction, mean, series_mean
+from ._runs import (
+    Interrupted,
+    Parameter,
+    checksum,
+    measurements,
+    parameters,
+    resolve,
+    run,
+    run_identity,
+    version,
+)
 from ._simulation import EventKind, Simulation, load
-from ._seeds import SeedMean, over_seeds
 from ._study import Crossing, SweepWarning, collect, crossing, parameter_map, sweep
 from ._study import map_runs as map
+from ._sweep_folder import RunFiles, SweepCounts, SweepFolder
 from ._track import VideoTracks, track
 from ._zero_crossing import zero_crossing
 
-__version__ = _version().split()[0]
+__version__ = version().split()[0]
 
 __all__ = [
     "Analysis",
@@ -49,31 +60,41 @@ __all__ = [
     "Recording",
     "Result",
     "Rotation",
+    "RunFiles",
     "SeedMean",
     "Series",
     "Simulation",
     "Snapshot",
+    "SweepCounts",
+    "SweepFolder",
     "SweepWarning",
     "Table",
     "Tracks",
     "Trajectory",
     "VideoTracks",
     "analyse",
+    "checksum",
     "collect",
     "compare_points",
     "crossing",
+    "is_direction",
     "lab",
     "load",
     "map",
+    "mean",
     "measurements",
-    "over_seeds",
+    "min_averaged_periods",
     "parameter_map",
     "parameters",
     "plot",
+    "resolve",
     "run",
+    "run_identity",
     "samples_per_period",
+    "series_mean",
     "sweep",
     "track",
+    "version",
     "with_error",
     "zero_crossing",
 ]

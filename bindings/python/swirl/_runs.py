@@ -18,8 +18,8 @@ from ._estimates import ArrayEstimate, Estimate
 from ._results import Measured, Result, Series, measured_of, source_of_run
 
 PathName = Union[str, "os.PathLike[str]"]
-# : Value of a parameter, as on the command line; a tuple is one value with several parts, an array
-# is a : path (columns t, x, y) or sizes (radius, or columns radius and mass).
+# The value of a parameter, as on the command line. A tuple is one value with several parts, and an
+# array is a path (columns t, x, y) or sizes (radius, or columns radius and mass).
 Value = Union[float, int, str, tuple[Union[float, int, str], ...], "np.ndarray[Any, Any]", None]
 ProgressCallback = Callable[[float, int, float], object]  # (fraction, events, periods)
 
@@ -84,6 +84,18 @@ def parameters() -> list[Parameter]:
 def measurements() -> dict[str, str]:
     """Names and descriptions of all measurements; the rotation is always measured."""
     return {name: description for name, _, description in _engine.measurement_kinds()}
+
+
+def version() -> str:
+    """The version with the commit, as results store it. swirl.__version__ is the number alone."""
+    return _engine.version()
+
+
+def checksum(content: str) -> str:
+    """The CRC-64 of a text in UTF-8, as 16 hexadecimal digits (src/swirl/io/checksum.hpp).
+
+    It detects damaged files. It does not protect against deliberate changes."""
+    return _engine.checksum(text("content", content))
 
 
 class CustomBlocks:
@@ -359,6 +371,15 @@ def with_parameters(function: Callable[..., Any], text: str) -> None:
     )
 
 
+def resolve(**parameters: Value) -> dict[str, Any]:
+    found: dict[str, Any] = json.loads(_engine.resolve(parameters))
+    return found
+
+
+def run_identity(**parameters: Value) -> str:
+    return _engine.run_identity(parameters)
+
+
 with_parameters(
     run,
     """One simulation, from its seed to its averages, like `swirl run`.
@@ -380,5 +401,25 @@ Returns a swirl.Result; its values are bitwise identical to those of the command
 threads run meanwhile. Ctrl-C raises swirl.Interrupted, a KeyboardInterrupt whose `result` holds the
 averages so far. A wrong value raises ValueError, a wrong name or type TypeError, and a run that cannot
 be done swirl.Failure.
+""",
+)
+with_parameters(
+    resolve,
+    """All parameters of a run with their values, those that are derived from others included.
+
+    swirl.resolve(preset="experiment", discs=40)["period"]
+
+Returns a dictionary of plain values, equal to `config` of the result. Units are those of
+swirl.parameters(). A wrong value raises ValueError, a wrong name or type TypeError.
+""",
+)
+with_parameters(
+    run_identity,
+    """A key of 16 hexadecimal digits that two runs share if they are bitwise the same run.
+
+    swirl.run_identity(discs=48) == swirl.run_identity(mu=1, discs=48)
+
+It depends on the resolved parameters, not on how they are given. A wrong value raises ValueError, a
+wrong name or type TypeError.
 """,
 )

@@ -9,92 +9,24 @@ import itertools
 import json
 import math
 import os
-import re
 import tempfile
 import threading
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any, Optional, Union
 
 from . import _engine
 from ._arguments import file_name, shown, text as checked_text
 from ._files import exists
 from ._optional import optional
+from ._points_table import count, names_of
 from ._results import Result
 from ._runs import Measure, PathName, Progress, call_text, run, split_measure, with_parameters
-
-Values = Any  # one value of a parameter, a list or array of them, or a text: "5:48", "0:0.25:1"
+from ._sweep_folder import SweepFolder, Values
 
 
 class SweepWarning(UserWarning):
     """Some rows of a sweep's table are incomplete."""
-
-
-def _names(measure: Optional[Measure], where: str) -> list[str]:
-    names, custom = split_measure(measure)
-    if custom:
-        raise TypeError(f"{where} does not take custom measurements.\nhint: use swirl.map().")
-    return names
-
-
-def _count(name: str, value: object, lowest: int) -> int:
-    if isinstance(value, bool) or not hasattr(value, "__index__"):
-        raise TypeError(f"{name} is {shown(value)}, but it must be a whole number.")
-    number = int(value.__index__())
-    if not lowest <= number <= 1_000_000:
-        raise ValueError(
-            f"{name} is {number}, but it must be a whole number from {lowest} to " "1000000."
-        )
-    return number
-
-
-def _rows(points: Any) -> Optional[list[dict[str, Any]]]:
-    """The rows of a table: a DataFrame, a dictionary of columns, or a list of dictionaries."""
-    if points is None:
-        return None
-    if hasattr(points, "columns") and hasattr(points, "to_dict"):
-        if not points.columns.is_unique:
-            twice = sorted({str(name) for name in points.columns[points.columns.duplicated()]})
-            raise ValueError(f"points has two columns {', '.join(twice)}.")
-        rows: list[dict[str, Any]] = points.to_dict("records")
-    elif isinstance(points, Mapping):
-        if any(
-            isinstance(values, str) or not hasattr(values, "__len__") for values in points.values()
-        ):
-            raise TypeError(
-                "points is a dictionary, but not each of its values is a column, a list of values."
-            )
-        lengths = {name: len(values) for name, values in points.items()}
-        if len(set(lengths.values())) > 1:
-            raise ValueError(f"the columns of points have different lengths: {lengths}.")
-        rows = [dict(zip(points, row)) for row in zip(*points.values())]
-    elif isinstance(points, Sequence) and all(isinstance(row, Mapping) for row in points):
-        rows = [dict(row) for row in points]
-    else:
-        raise TypeError(
-            f"points is {shown(points)}, but it must be a DataFrame, a list of dictionaries, or a "
-            "dictionary "
-            'of columns.\nhint: read a file with pandas.read_csv("points.csv", comment="#").'
-        )
-    if not rows:
-        raise ValueError("points has no rows.")
-    return [_row(number, row) for number, row in enumerate(rows, 1)]
-
-
-def _row(number: int, row: Mapping[Any, Any]) -> dict[str, Any]:
-    """As the reader of files takes it: names in lower case, and no decimal commas in texts."""
-    found: dict[str, Any] = {}
-    for given, value in row.items():
-        name = str(given).lower()
-        if name in found:
-            raise ValueError(f"points has two columns {name}.")
-        if isinstance(value, str) and re.fullmatch(r"\s*[-+]?\d+,\d+\s*", value):
-            raise ValueError(
-                f"points, row {number}: {name} is {shown(value)}, but it must be a number.\n"
-                'hint: read decimal commas with pandas.read_csv(file, sep=";", decimal=",").'
-            )
-        found[name] = value
-    return found
 
 
 def sweep(
@@ -112,16 +44,16 @@ def sweep(
     **parameters: Values,
 ) -> Any:
     optional("pandas", "swirl.sweep()")
-    _count("threads", threads, 0)
+    count("threads", threads, 0)
     if out is None:
         if grow or frames or series:
             raise ValueError(
                 f"{'grow' if grow else 'frames' if frames else 'series'} is given, but out, "
                 "the folder of the sweep, is not."
             )
-        with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as folder:
+        with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as temporary:
             return sweep(
-                folder,
+                temporary,
                 points=points,
                 seeds=seeds,
                 measure=measure,
@@ -130,28 +62,26 @@ def sweep(
                 chain=chain,
                 **parameters,
             )
-    folder = file_name("out", out)
-    rows = _rows(points)
-    names = _names(measure, "A sweep")
-    given = {name: value for name, value in parameters.items() if value is not None}
+    folder, names = SweepFolder(file_name("out", out)), names_of(measure, "A sweep")
     if grow and (chain or series):
         raise ValueError(
             "chain and series cannot be used with grow: they apply to all runs of a sweep or to "
             "none."
         )
+    given = any(value is not None for value in (points, *parameters.values()))
     if grow:
-        _engine.grow(folder, given, 0 if seeds == 1 else _count("seeds", seeds, 1), names, rows)
-    elif given or rows or names or chain or series:
-        _engine.Plan(
-            given,
-            _count("seeds", seeds, 1),
-            names,
-            _count("frames", frames, 0),
-            chain or "",
-            bool(series),
-            rows,
-        ).write(folder)
-    elif not exists(os.path.join(folder, "plan.json")):
+        folder.grow(points=points, seeds=seeds, measure=names, **parameters)
+    elif given or names or chain or series:
+        folder.plan(
+            points=points,
+            seeds=seeds,
+            measure=names,
+            frames=frames,
+            chain=chain,
+            series=series,
+            **parameters,
+        )
+    elif not folder.is_planned:
         raise ValueError(
             "there is no parameter to sweep over.\n"
             "hint: give lists, such as discs=range(5, 49), mu=[0.1, 0.5, 1]."
@@ -165,14 +95,16 @@ def sweep(
             show(done / runs if runs else 1.0, events, 0.0)
 
     try:
-        _, failed, _, first_failure = _engine.sweep(folder, threads, callback)
+        counts = folder.run(threads=threads, progress=callback)
     finally:
         bar.close()
-    if failed:
+    if counts.failed:
         warnings.warn(
-            f"{failed} runs failed; the first is {first_failure}", SweepWarning, stacklevel=2
+            f"{counts.failed} runs failed; the first is {counts.first_failure}",
+            SweepWarning,
+            stacklevel=2,
         )
-    return collect(folder)
+    return collect(folder.path)
 
 
 def collect(out: PathName) -> Any:
@@ -312,6 +244,7 @@ def crossing(
     min_discs: int = 5,
     max_discs: int = 48,
     tolerance: float = 0.1,
+    min_periods: int = 50,
     rate: str = "mean_by_time",
     threads: int = 0,
     progress: Union[bool, Callable[[str, float], object], None] = None,
@@ -327,6 +260,7 @@ def crossing(
                 "min_discs": min_discs,
                 "max_discs": max_discs,
                 "tolerance": tolerance,
+                "min_periods": min_periods,
                 "rate": rate,
                 "threads": threads,
                 "progress": progress,
@@ -350,18 +284,21 @@ def crossing(
     }
     if rate != "mean_by_time":
         given["rate"] = rate
+    if min_periods != 50:
+        given["min_periods"] = min_periods
     if out is not None:
         given["out"] = file_name("out", out)
     text, sentence = _engine.crossing(
         given.get("out"),
         parameters,
-        _count("min_discs", min_discs, 1),
-        _count("max_discs", max_discs, 1),
+        count("min_discs", min_discs, 1),
+        count("max_discs", max_discs, 1),
         float(tolerance),
         checked_text("rate", rate),
-        _count("threads", threads, 0),
+        count("threads", threads, 0),
         call_text("crossing", given),
         callback,
+        count("min_periods", min_periods, 1),
     )
     found = json.loads(text)
 
@@ -444,10 +381,10 @@ def parameter_map(
             )
 
     def counted(name: str, value: Optional[int]) -> Optional[int]:
-        return None if value is None else _count(name, value, 1)
+        return None if value is None else count(name, value, 1)
 
     folder = file_name("out", out)
-    _count("threads", threads, 0)
+    count("threads", threads, 0)
     given = {name: value for name, value in parameters.items() if value is not None}
     if grow:
         if given or (quantity, level, change, tolerance, rate) != (
@@ -466,7 +403,7 @@ def parameter_map(
             folder,
             _axis("x", x),
             _axis("y", y),
-            _count("steps", steps, 2),
+            count("steps", steps, 2),
             counted("seeds", seeds),
             counted("min_discs", min_discs),
             counted("max_discs", max_discs),
@@ -481,7 +418,7 @@ def parameter_map(
             float(level),
             change,
             float(tolerance),
-            _count("steps", steps, 2),
+            count("steps", steps, 2),
             counted("seeds", seeds) or 16,
             counted("min_discs", min_discs) or 5,
             counted("max_discs", max_discs) or 48,
@@ -524,11 +461,11 @@ def map_runs(
 ) -> list[Result]:
     plan = _engine.Plan(
         {name: value for name, value in parameters.items() if value is not None},
-        _count("seeds", seeds, 1),
+        count("seeds", seeds, 1),
         [],
         0,
     )
-    _count("threads", threads, 0)
+    count("threads", threads, 0)
     split_measure(measure)  # raises errors before the first run
     points = plan.points()
     bar = Progress(progress if not callable(progress) else None, "runs")
@@ -603,8 +540,8 @@ Returns a swirl.Crossing. If parameters are lists or arrays, each combination is
 DataFrame with the parameters, N_c and its error; `table.attrs["searches"]` has the complete results.
 
 out: folder for the runs, in the format of the command line; a repeated call continues.
-min_discs, max_discs: range of the search. tolerance: target standard error of N_c. rate: the rotation
-    rate that decides: mean_by_event, mean_by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
+min_discs, max_discs: range of the search. tolerance: target standard error of N_c. min_periods: length of
+    the first runs after their warm-up, at least [50]. rate: the rotation rate that decides: mean_by_event, mean_by_time, rigid_by_event or rigid_by_time. threads: simultaneous runs
     [one per core]. progress: True to print, or a function of (current stage, events per second).
     events [2e4]: length of the first runs.
 """,
