@@ -38,7 +38,8 @@ def instances(folder):
     video, recording = (kind.__new__(kind) for kind in (swirl.VideoTracks, swirl.Recording))
     video._frames = recording._frames = tracks._frames
     video.quality = {"discs": 2}
-    table = swirl.sweep(folder / "sweep", discs=[8, 12], events=2000)
+    points = [{"discs": discs, "events": 2000} for discs in (8, 12)]
+    table = swirl.sweep(folder / "sweep", points=points)
     sweep = swirl.SweepFolder(folder / "sweep")
     objects = [
         sim,
@@ -65,7 +66,7 @@ def instances(folder):
         swirl.mean([0.1, 0.2]),
         sweep,
         sweep.run(),
-        sweep.files([{"discs": 8, "events": 2000}])[0][0],
+        sweep.files(points)[0][0],
         swirl.compare_points([(8, 4.4, 20), (12, 4.0, 20)], table),
     ]
     found = {type(one): one for one in objects}
