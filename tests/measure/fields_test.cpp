@@ -125,13 +125,14 @@ TEST(Fields, AreThoseAtAPointOfTheMFrameRelativeToTheContainer) {
         fields.sample_in_lab(s);
     }
     fields.close_block();
-    const FieldGrid& grid = fields.m_frame_narrow();
+    const FieldGrid& grid = fields.grids()[0];
     const std::size_t cell = grid.grid().cell_at(3.0, 0.1);
     EXPECT_NEAR(field(grid, cell, "u_x"), 0.3, 1e-13);
     EXPECT_NEAR(field(grid, cell, "u_y"), -0.1, 1e-13);
     EXPECT_NEAR(field(grid, cell, "temperature"), 0.0, 1e-13);
     EXPECT_NEAR(field(grid, cell, "spin"), 0.5, 1e-13);
-    EXPECT_NEAR(field(fields.lab(), fields.lab().grid().cell_at(3.0, 0.0), "spin"), 0.5, 1e-13);
+    EXPECT_NEAR(field(fields.grids()[2], fields.grids()[2].grid().cell_at(3.0, 0.0), "spin"), 0.5,
+                1e-13);
 }
 
 // For groups of equal weight the jackknife of a mean is its standard error.

@@ -667,12 +667,6 @@ MUTATIONS = [
     ),
     (
         BALL,
-        "double rotation_in_m_frame() const { return -gamma(); }",
-        "double rotation_in_m_frame() const { return gamma(); }",
-        "the ball turns the wrong way",
-    ),
-    (
-        BALL,
         "phase - ball.lag / (2.0 * pi)",
         "phase + ball.lag / (2.0 * pi)",
         "the ball settles ahead of M",

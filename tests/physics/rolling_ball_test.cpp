@@ -55,8 +55,8 @@ TEST(RollingBall, IsOppositeTheSwirlCentreWithoutLag) {
 }
 
 TEST(RollingBall, CounterrotatesInTheMFrame) {
-    EXPECT_EQ((RollingBall{9.0, 6.0, 1.0}).rotation_in_m_frame(), -1.5);
-    EXPECT_EQ((RollingBall{9.0, 6.0, 0.5}).rotation_in_m_frame(), -0.75);
+    EXPECT_EQ((RollingBall{9.0, 6.0, 1.0}).gamma(), 1.5);
+    EXPECT_EQ((RollingBall{9.0, 6.0, 0.5}).gamma(), 0.75);
 }
 
 TEST(RollingBall, LagsClockwiseBehindTheDirectionFromTheSwirlCentre) {

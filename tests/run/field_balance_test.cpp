@@ -109,8 +109,9 @@ TEST(FieldBalance, HoldsForDiscsOnTheCircle) {
 }
 TEST(FieldBalance, HoldsForAMixtureOfInelasticDiscs) {
     InitialState scene = mixture_container();
-    scene.disc_surface = {0.7, 0.9, 0.4, 1e-3};
-    scene.wall_surface = {0.4, 0.8, 0.0, 1e-3};
+    scene.disc_surface = {
+        .mu = 0.7, .restitution = 0.9, .tangential_restitution = 0.4, .contact_duration = 1e-3};
+    scene.wall_surface = {.mu = 0.4, .restitution = 0.8, .contact_duration = 1e-3};
     expect_all_terms(expect_balances(scene, 3), false);
 }
 TEST(FieldBalance, HoldsIfEverySecondDiscCannotSpin) {
@@ -216,7 +217,7 @@ TEST(UniformGas, HasThePressureOfHardDiscs) {
         Simulation gas(scene);
         gas.run(20 * n);
         const InnerMean mean =
-            inner_mean(fields_of(gas, scene.container_radius, 10, 6000).m_frame_wide());
+            inner_mean(fields_of(gas, scene.container_radius, 10, 6000).grids()[1]);
         const double phi = mean.packing;
         EXPECT_NEAR(phi, packing, 0.06 * packing);
         EXPECT_NEAR(mean.density, phi / pi, 1e-12);
@@ -232,7 +233,7 @@ TEST(UniformGas, HasThePressureOfHardDiscs) {
 TEST(RigidRotation, IsTheEquilibriumOfPerfectlyRoughDiscs) {
     constexpr std::size_t n = 200;
     InitialState scene = gas_at_rest(n, 0.4);
-    scene.disc_surface = {1e9, 1.0, 1.0};
+    scene.disc_surface = {.mu = 1e9, .tangential_restitution = 1.0};
     constexpr double rate = 0.08;
     for (Disc& d : scene.discs) {
         d.inertia = 0.5;
@@ -242,7 +243,7 @@ TEST(RigidRotation, IsTheEquilibriumOfPerfectlyRoughDiscs) {
     Simulation gas(scene);
     gas.run(100 * n);
     const Fields fields = fields_of(gas, scene.container_radius, 10, 12000);
-    const InnerMean mean = inner_mean(fields.m_frame_wide());
+    const InnerMean mean = inner_mean(fields.grids()[1]);
     // The inner half has 600 samples of 50 discs, with T = ½ and I = ½. If they were independent,
     // the mean spin would have an error of 0.006; the tolerance is four times that.
     EXPECT_NEAR(2.0 * mean.spin, mean.vorticity, 0.025);
@@ -250,7 +251,7 @@ TEST(RigidRotation, IsTheEquilibriumOfPerfectlyRoughDiscs) {
     // A contact transfers ± a few tenths of the pressure, so the error of the mean of 30,000 is
     // about a hundredth of it.
     EXPECT_NEAR(mean.torque, 0.0, 0.02 * mean.pressure);
-    EXPECT_LT(fields.largest_residuals()[2], 1e-13);
+    EXPECT_LT(row_of(fields, "fields.spin_residual").mean, 1e-13);
 }
 
 }  // namespace

@@ -48,11 +48,8 @@ class Fields {
     void close_block();
     void close_event_block(double duration);
 
-    const FieldGrid& m_frame_narrow() const { return grids_[0]; }
-    const FieldGrid& m_frame_wide() const { return grids_[1]; }
-    const FieldGrid& lab() const { return grids_[2]; }
-    /// Mass, momentum, spin; NaN before the first block with events.
-    const std::array<double, 3>& largest_residuals() const { return residuals_; }
+    /// In the order of the report: M-frame, narrow and wide; lab.
+    const std::array<FieldGrid, 3>& grids() const { return grids_; }
 
     template <class Visitor>
     void report(Visitor&& visit) const {

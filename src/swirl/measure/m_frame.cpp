@@ -29,22 +29,6 @@ Snapshot seen_from(const MFrame& frame, const Snapshot& lab) {
     return s;
 }
 
-Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame) {
-    Snapshot s = in_m_frame;
-    s.container_centre = frame.centre;
-    s.container_velocity = frame.centre_velocity;
-    for (std::size_t i = 0; i < s.size(); ++i) {
-        Disc d = in_m_frame.disc(i);
-        d.angle = in_m_frame.orientation(i) + frame.angle();
-        d.velocity = frame.lab_velocity(in_m_frame.position(i), in_m_frame.velocity(i));
-        d.position = frame.lab_position(in_m_frame.position(i));
-        d.spin = frame.lab_spin(d.spin);
-        d.time = s.clock;
-        s.set(i, d);
-    }
-    return s;
-}
-
 namespace {
 
 /// Positions and velocities of all discs, rotated into the M-frame.

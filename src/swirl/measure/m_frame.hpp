@@ -47,10 +47,7 @@ struct MFrame {
     Vec2 lab_velocity(const Vec2& p, const Vec2& v) const {
         return centre_velocity + rotate_back(v + omega * perpendicular(p));
     }
-    /// The wall's velocity at p, in the M-frame.
-    Vec2 wall_velocity(const Vec2& p) const { return -omega * perpendicular(p); }
     double spin(double lab) const { return lab - omega; }
-    double lab_spin(double spin) const { return spin + omega; }
     double period() const { return 2.0 * pi / omega; }
     /// The angle from the lab to the M-frame, counter-clockwise.
     double angle() const { return 2.0 * pi * turns_of(perpendicular(down)); }
@@ -58,10 +55,9 @@ struct MFrame {
 
 MFrame m_frame(const Snapshot& snapshot);
 
-/// A whole snapshot in the M-frame; the container rests at the origin.
+/// A whole snapshot in the M-frame; the container rests at the origin. The discs' states are advanced
+/// to the clock.
 Snapshot seen_from(const MFrame& frame, const Snapshot& lab);
-/// The inverse. In both, the discs' states are advanced to the clock.
-Snapshot seen_from_lab(const MFrame& frame, const Snapshot& in_m_frame);
 
 /// The centre of mass of a view.
 struct CentreOfMass {

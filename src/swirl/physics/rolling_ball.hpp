@@ -37,8 +37,7 @@ struct RollingBall {
 
     double gamma_no_slip() const { return container_radius / ball_radius; }  // γ_c
     double gamma() const { return slip * gamma_no_slip(); }
-    /// In units of Ω.
-    double rotation_in_m_frame() const { return -gamma(); }
+    /// In units of Ω; −γ in the M-frame.
     double rotation() const { return 1.0 - gamma(); }
 };
 

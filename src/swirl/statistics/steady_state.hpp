@@ -119,9 +119,6 @@ struct SteadyState {
     MeanChange change;
     TwoStates states;
     double period = not_available;  // time of the change since the run's beginning
-
-    /// True if a test found a change.
-    bool has_changed() const { return verdict != Verdict::steady && verdict != Verdict::too_short; }
 };
 
 /// The residuals of a series about its straight-line fit.
