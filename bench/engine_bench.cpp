@@ -28,7 +28,7 @@ void collision_law(benchmark::State& state) {
     unsigned k = 0;
     for (auto _ : state) {
         // The directions alternate, so that the bodies approach each other in every call.
-        const Impulse J = collide(i, j, separations[k++ & 1], {0.5});
+        const Impulse J = collide(i, j, separations[k++ & 1], {.mu = 0.5});
         benchmark::DoNotOptimize(J);
     }
 }

@@ -37,7 +37,8 @@ constexpr double R = paper_container_radius;
 
 Simulation container(std::size_t discs) {
     const auto positions = place_discs(std::vector<double>(discs, 1.0), R, 1);
-    InitialState scene{{}, polygon_path(paper_amplitude, paper_period, paper_sides), R, {}, {}};
+    InitialState scene{.path = polygon_path(paper_amplitude, paper_period, paper_sides),
+                       .container_radius = R};
     const Segment& segment = scene.path.segments.front();
     for (const Vec2& p : *positions)
         scene.discs.push_back(

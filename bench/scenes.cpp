@@ -146,7 +146,9 @@ InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
     const bool rolls = scene.kind == BenchScene::Kind::spheres,
                still = scene.kind == BenchScene::Kind::gas;
     const double mu_wall = still ? 0.0 : 1.0;
-    InitialState initial{{}, {}, paper_container_radius, {scene.mu_disc}, {mu_wall}};
+    InitialState initial{.container_radius = paper_container_radius,
+                         .disc_surface = {.mu = scene.mu_disc},
+                         .wall_surface = {.mu = mu_wall}};
     if (still)
         initial.path = still_path(10.0);
     else if (scene.sides == 0)
@@ -157,7 +159,9 @@ InitialState state_of(const BenchScene& scene, const std::atomic<bool>* stop) {
         initial.path = polygon_path(spheres_amplitude, 2.0 * pi * spheres_amplitude, paper_sides);
     if (rolls) {
         for (Surface* surface : {&initial.disc_surface, &initial.wall_surface})
-            *surface = {0.2, experiment_restitution, 0.0, RunConfig{}.contact_duration};
+            *surface = {.mu = 0.2,
+                        .restitution = experiment_restitution,
+                        .contact_duration = RunConfig{}.contact_duration};
         initial.shape = Shape::sphere;
         initial.floor.deceleration = 0.3 * experiment_gravity(5.75);
     }

@@ -25,7 +25,6 @@
 #include "container.hpp"
 #include "fitting.hpp"
 #include "json.hpp"
-#include "sliders.hpp"
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
@@ -135,21 +134,13 @@ RunConfig with_path_of(const RunConfig& a, RunConfig b) {
 /// How the discs can continue with other values.
 enum class Change { needs_new_simulation, at_once, at_the_start_of_a_period };
 
-/// Contact parameters and the number of discs of one size change at once, the path at the start of
-/// a period. Any other difference needs a new simulation.
+/// Parameters that may change (Changes), and the number of discs of one size, do so at once; the path
+/// at the start of a period. Any other difference needs a new simulation.
 Change change_between(const RunConfig& a, const RunConfig& b) {
     constexpr std::int64_t most = 400;  // more discs are not added one by one
     RunConfig like = with_path_of(a, b);
-    like.mu_disc = a.mu_disc;
-    like.mu_wall = a.mu_wall;
-    like.restitution = a.restitution;
-    like.tangential_restitution = a.tangential_restitution;
-    like.contact_duration = a.contact_duration;
-    like.vertical_disc = a.vertical_disc;
-    like.vertical_wall = a.vertical_wall;
-    like.floor_friction = a.floor_friction;
-    like.gravity = a.gravity;
-    like.rolling_resistance = a.rolling_resistance;
+    for (const Parameter& p : run_parameters)
+        if (p.changes != Changes::never && p.number()) like.*p.number() = a.*p.number();
     like.warmup = a.warmup;
     const std::int64_t discs = b.discs;
     const bool are_equal = !has_unequal_sizes(a) && (a.cannot_spin == 0.0 || a.cannot_spin == 1.0);
@@ -238,19 +229,39 @@ std::string_view name_of(Crossing::Verdict verdict) {
 }
 
 /// [from, to, step], or null.
-std::string slider_json(const char* parameter) {
-    const Slider* const slider = slider_of(parameter);
-    if (!slider) return "null";
-    return fmt::format("[{},{},{}]", slider->from, slider->to, slider->step);
+std::string slider_json(const Slider& slider) {
+    if (slider.step == 0.0) return "null";
+    return fmt::format("[{},{},{}]", slider.from, slider.to, slider.step);
+}
+
+std::string_view name_of(AppliesTo runs) {
+    switch (runs) {
+        case AppliesTo::every_run:
+            break;
+        case AppliesTo::floor:
+            return "floor";
+        case AppliesTo::spheres:
+            return "spheres";
+        case AppliesTo::rolling_spheres:
+            return "rolling_spheres";
+        case AppliesTo::dissipation:
+            return "dissipation";
+        case AppliesTo::polygons:
+            return "polygons";
+    }
+    return "every_run";
 }
 
 std::string parameter_json(const Parameter& p) {
     return fmt::format(
         R"({{"name":{},"symbol":{},"unit":{},"form":{},"description":{},"group":{},"default":{},)"
-        R"("lowest":{},"highest":{},"slider":{},"settable":{}}})",
+        R"("lowest":{},"highest":{},"slider":{},"settable":{},"page_group":{},"label":{},)"
+        R"("applies_to":{}}})",
         json_text(p.name), json_text(p.symbol), json_text(p.unit), json_text(p.form),
         json_text(p.description), json_text(p.group), json_text(default_of(p)),
-        number(p.range.lowest), number(p.range.highest), slider_json(p.name), p.is_settable());
+        number(p.range.lowest), number(p.range.highest), slider_json(p.page.slider),
+        p.is_settable(), p.page.group ? json_text(p.page.group) : "null", json_text(p.page.label),
+        json_text(name_of(p.applies_to)));
 }
 
 }  // namespace

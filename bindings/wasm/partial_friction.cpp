@@ -1,7 +1,6 @@
-// The page has no event loops for discs that lack friction in some contacts with each other.
-// laboratory.cpp rejects such runs.
-#include "swirl/engine/neighbors/engine_state.hpp"
+// The page has no event loops without friction in some contacts; laboratory.cpp rejects these.
+#include "swirl/engine/partial_friction.hpp"
 
 namespace swirl {
-const EventLoops event_loops_partial_friction{};
+OwnLaw without_friction_in(Frictionless) { return {}; }
 }  // namespace swirl

@@ -8,7 +8,7 @@ namespace swirl {
 namespace {
 
 InitialState container(double radius) {
-    InitialState scene{{}, polygon_path(1.892, 11.866071, 30), 8.6, {1.0}, {1.0}};
+    InitialState scene{.path = polygon_path(1.892, 11.866071, 30), .container_radius = 8.6};
     const auto centres = place_discs(std::vector<double>(30, radius), 8.6, 1);
     for (const Vec2& centre : *centres)
         scene.discs.push_back({scene.path.segments.front().start + centre,

@@ -21,11 +21,8 @@ constexpr std::size_t stored_collisions = 120;
 
 /// A triangular lattice in the paper's container, as wide as it fits, with unequal velocities.
 InitialState lattice() {
-    InitialState scene{{},
-                       polygon_path(paper_amplitude, paper_period, paper_sides),
-                       paper_container_radius,
-                       {1.0},
-                       {1.0}};
+    InitialState scene{.path = polygon_path(paper_amplitude, paper_period, paper_sides),
+                       .container_radius = paper_container_radius};
     for (int row = -4; row <= 4; ++row) {
         for (int column = -4; column <= 4; ++column) {
             const Vec2 centre{2.1 * column + (row % 2 ? 1.05 : 0.0), 1.8 * row};

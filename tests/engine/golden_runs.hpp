@@ -24,8 +24,8 @@ inline InitialState golden_circle() {
 }
 inline InitialState golden_walton() {
     InitialState scene = paper_container(36);
-    scene.disc_surface = {0.5, 0.97, 0.4};
-    scene.wall_surface = {0.8, 0.95, 0.2};
+    scene.disc_surface = {.mu = 0.5, .restitution = 0.97, .tangential_restitution = 0.4};
+    scene.wall_surface = {.mu = 0.8, .restitution = 0.95, .tangential_restitution = 0.2};
     return scene;
 }
 

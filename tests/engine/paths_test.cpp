@@ -87,7 +87,11 @@ TEST(LineAtConstantSpeed, PushesADiscAtTwiceTheSpeedOfTheWall) {
     Disc disc = unit_disc();
     disc.radius = r;
     disc.position = {-1.0, 0.0};  // the gap on either side is 1.5
-    const InitialState scene{{disc}, back_and_forth(), R, {0.0}, {0.0}};
+    const InitialState scene{.discs = {disc},
+                             .path = back_and_forth(),
+                             .container_radius = R,
+                             .disc_surface = {.mu = 0.0},
+                             .wall_surface = {.mu = 0.0}};
     Simulation simulation(scene);
     const Event hit = simulation.step();
     EXPECT_EQ(hit.kind, EventKind::disc_wall);

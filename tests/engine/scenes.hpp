@@ -26,7 +26,10 @@ inline InitialState state_of(const std::vector<Disc>& species, std::size_t n,
     for (std::size_t i = 0; i < n; ++i) radii.push_back(species[i % species.size()].radius);
     const auto centres = place_discs(radii, container_radius, seed);
     if (!centres) throw std::runtime_error("the test's discs do not fit");
-    InitialState scene{{}, std::move(path), container_radius, {mu_disc}, {mu_wall}};
+    InitialState scene{.path = std::move(path),
+                       .container_radius = container_radius,
+                       .disc_surface = {.mu = mu_disc},
+                       .wall_surface = {.mu = mu_wall}};
     Random random(seed + 1);
     const Segment& segment = scene.path.segments.front();
     for (std::size_t i = 0; i < n; ++i) {
@@ -68,11 +71,11 @@ inline InitialState large_among_small(std::size_t large, std::size_t small, doub
     const auto centres = place_discs(radii, container_radius, 1);
     if (!centres) throw std::runtime_error("the test's discs do not fit");
     const double scale = container_radius / paper_container_radius;
-    InitialState scene{{},
-                       polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides),
-                       container_radius,
-                       {0.7},
-                       {0.4}};
+    InitialState scene{
+        .path = polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides),
+        .container_radius = container_radius,
+        .disc_surface = {.mu = 0.7},
+        .wall_surface = {.mu = 0.4}};
     Random random(2);
     const Segment& segment = scene.path.segments.front();
     for (std::size_t i = 0; i < radii.size(); ++i) {
@@ -105,7 +108,8 @@ inline InitialState sphere_container(std::size_t n, double deceleration = 1.92, 
     InitialState scene =
         state_of({unit_disc(solid_sphere_inertia(1.0, 1.0))}, n, paper_container_radius,
                  polygon_path(paper_amplitude, paper_period, paper_sides), mu, mu);
-    scene.disc_surface = scene.wall_surface = {mu, restitution, 0.0, 1e-3};
+    scene.disc_surface =
+        scene.wall_surface = {.mu = mu, .restitution = restitution, .contact_duration = 1e-3};
     scene.shape = Shape::sphere;
     scene.floor.deceleration = deceleration;
     return scene;
@@ -133,8 +137,10 @@ inline InitialState sphere_mixture() {
             i % 2 ? shell_inertia(d.mass, d.radius) : solid_sphere_inertia(d.mass, d.radius);
         d.rolling_spin = {0.1 * d.velocity.y, 0.3};
     }
-    scene.disc_surface = {0.3, 0.8, 0.3, 2e-3};
-    scene.wall_surface = {0.2, 0.7, 0.1, 2e-3};
+    scene.disc_surface = {
+        .mu = 0.3, .restitution = 0.8, .tangential_restitution = 0.3, .contact_duration = 2e-3};
+    scene.wall_surface = {
+        .mu = 0.2, .restitution = 0.7, .tangential_restitution = 0.1, .contact_duration = 2e-3};
     scene.shape = Shape::sphere;
     scene.floor.deceleration = 0.8;
     return scene;

@@ -16,7 +16,8 @@ InitialState many_spheres(std::size_t n, double packing, double deceleration) {
     InitialState scene = state_of(
         {unit_disc(solid_sphere_inertia(1.0, 1.0)), {{0, 0}, {0, 0}, 0, 0, 0, 0.8, 0.5, 0.128}}, n,
         R, polygon_path(scale * paper_amplitude, scale * paper_period, paper_sides), 0.2, 0.3);
-    scene.disc_surface = scene.wall_surface = {0.2, 0.9, 0.0, 1e-3};
+    scene.disc_surface =
+        scene.wall_surface = {.mu = 0.2, .restitution = 0.9, .contact_duration = 1e-3};
     scene.shape = Shape::sphere;
     scene.floor.deceleration = deceleration;
     return scene;

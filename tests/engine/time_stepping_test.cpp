@@ -131,7 +131,7 @@ InitialState five_spheres() {
     InitialState scene =
         state_of({unit_disc(inertia)}, 5, paper_container_radius,
                  polygon_path(paper_amplitude, paper_period, paper_sides), 0.2, 0.2);
-    scene.disc_surface = scene.wall_surface = {0.2, 0.9, 0.0, 0.0};
+    scene.disc_surface = scene.wall_surface = {.mu = 0.2, .restitution = 0.9};
     scene.shape = Shape::sphere;
     scene.floor.deceleration = 0.6;
     for (std::size_t i = 0; i < scene.discs.size(); ++i) {

@@ -50,7 +50,7 @@ inline std::vector<std::vector<unsigned char>> good_recordings() {
         frames.finish();
         all.push_back(bytes_and_remove(path));
         MovingFloor floor;
-        if (spheres) floor = {{2.0, false}, {{1.0, 0.0}, {0.0, 1.0}}};
+        if (spheres) floor = {{.deceleration = 2.0}, {{1.0, 0.0}, {0.0, 1.0}}};
         EventLogWriter events(path, small_snapshot(spheres, 0), 10.0, provenance, 1, floor);
         for (std::uint32_t k = 0; k < 6; ++k)
             events.write({0,

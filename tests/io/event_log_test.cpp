@@ -72,7 +72,9 @@ TEST(EventLog, ReplayIsBitwiseIdenticalToTheRun) {
 
 TEST(EventLog, ReplayOfSpheresAndCoinsIsBitwiseIdenticalToTheRun) {
     for (const Floor floor :
-         {Floor{1.92}, Floor{0.0}, Floor{1.92, true}, Floor{1.92, false, 0.5}}) {
+         {Floor{.deceleration = 1.92}, Floor{.deceleration = 0.0},
+          Floor{.deceleration = 1.92, .bodies_lie_flat = true},
+          Floor{.deceleration = 1.92, .bodies_lie_flat = false, .rolling_resistance = 0.5}}) {
         const Scratch scratch;
         InitialState scene = mixed_container();
         scene.shape = floor.bodies_lie_flat ? Shape::coin : Shape::sphere;
@@ -271,7 +273,7 @@ TEST(Checkpoint, SizePerDiscIsThatOfItsState) {
 TEST(EventLog, MoreVerticesThanPathSegmentsAreRejected) {
     Disc sphere{};
     sphere.radius = sphere.mass = sphere.inertia = 1.0;
-    Replay replay({sphere}, 10.0, MovingFloor{{2.0, false}, {{1.0, 0.0}, {0.0, 1.0}}});
+    Replay replay({sphere}, 10.0, MovingFloor{{.deceleration = 2.0}, {{1.0, 0.0}, {0.0, 1.0}}});
     const auto vertex = [](double clock) {
         return Event{0, clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
     };

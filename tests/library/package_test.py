@@ -84,10 +84,8 @@ class Installed(unittest.TestCase):
             "-DCMAKE_CXX_FLAGS=-O1 -Wall -Werror",
         )
         output_of("cmake", "--build", build)
-        return {
-            name: output_of(os.path.join(build, name))
-            for name in ("rotation_rate", "events_one_by_one", "custom_measurement")
-        }
+        examples = "rotation_rate events_one_by_one custom_measurement custom_contact_law"
+        return {name: output_of(os.path.join(build, name)) for name in examples.split()}
 
     def test_examples(self):
         output = self.build_examples("g++")
@@ -96,6 +94,13 @@ class Installed(unittest.TestCase):
         # Distances lie between 0, the centre, and 7.6, where discs touch the wall of radius 8.6.
         distance = float(re.search(r"centre: ([0-9.]+)", output["custom_measurement"])[1])
         self.assertTrue(4.0 < distance < 6.0, distance)
+        law = output["custom_contact_law"]
+        speeds = re.findall(r"^ +\d+  (\S+)  (\S+)$", law, re.MULTILINE)
+        self.assertEqual(len(speeds), 5)
+        for found, expected in speeds:
+            self.assertEqual(found, expected)
+        own, constants = re.search(r"state (\w+), with the law of constants (\w+)", law).groups()
+        self.assertEqual(own, constants)
         # The program starts from other velocities: the means agree within four standard errors.
         program = json.loads(
             output_of(

@@ -15,7 +15,9 @@ double energy_gained(const RandomCollision& c) {
 
 TEST(EnergyBudget, ClosesForEveryCollision) {
     for (const Surface& surface :
-         {Surface{1.0, 1.0, 0.0}, Surface{0.1, 0.9, 0.0}, Surface{0.5, 0.0, 0.5}, Surface{0, 1, 0}})
+         {Surface{.mu = 1.0}, Surface{.mu = 0.1, .restitution = 0.9},
+          Surface{.mu = 0.5, .restitution = 0.0, .tangential_restitution = 0.5},
+          Surface{.mu = 0, .restitution = 1, .tangential_restitution = 0}})
         for (std::uint64_t seed = 1; seed <= 200; ++seed)
             for (const bool wall : {false, true}) {
                 const RandomCollision c = collide_at_random(seed, wall, surface);
@@ -42,7 +44,7 @@ TEST(EnergyBudget, ReferenceCollisionLosesTheDocumentedEnergy) {
     add_disc(s, {0.0, 0.0}, {0.0, 1.0});
     add_disc(s, {0.0, 2.0}, {0.5, -1.0});
     Body a{s.velocity(0), 0.0, 1.0, 1.0, 0.1}, b{s.velocity(1), 0.0, 1.0, 1.0, 0.1};
-    const Impulse J = collide(a, b, {0.0, 2.0}, Surface{1.0, 1.0, 0.0});
+    const Impulse J = collide(a, b, {0.0, 2.0}, Surface{.mu = 1.0});
     s.vx = {a.velocity.x, b.velocity.x};
     s.vy = {a.velocity.y, b.velocity.y};
     s.spin = {a.spin, b.spin};
@@ -56,7 +58,8 @@ TEST(EnergyBudget, PowersArePerTimeAndTotalsAccumulate) {
     EnergyBudget budget;
     double work = 0.0, change = 0.0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        const RandomCollision c = collide_at_random(seed, true, Surface{1.0, 0.9, 0.0});
+        const RandomCollision c =
+            collide_at_random(seed, true, Surface{.mu = 1.0, .restitution = 0.9});
         budget.sample_event(c.event, c.after);
         work += energy_change(c.event, c.after).work;
         change += energy_gained(c);

@@ -69,7 +69,7 @@ TEST(Rolling, VerticalFrictionAtTheWallDissipatesTheEnergyOfTheSpin) {
     add_sphere(s, s.container_centre + (s.container_radius - 1.0) * n, {0.8, 0.0}, {0.0, 0.8});
     s.container_velocity = {0.0, 0.0};
     SphereBody ball{{{0.8, 0.0}, 0.0, 1.0, 1.0, 2.5}, {0.0, 0.8}}, wall = wall_for_spheres({0, 0});
-    const Impulse J = collide(ball, wall, n, Surface{100.0});
+    const Impulse J = collide(ball, wall, n, Surface{.mu = 100.0});
     s.set_floor_motion(0, ball.rolling_spin, {0.0, 0.0});
     Rolling r;
     r.sample_in_lab(s);

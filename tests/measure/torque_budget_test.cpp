@@ -11,7 +11,9 @@ namespace swirl {
 namespace {
 
 TEST(TorqueBudget, ClosesForEveryCollision) {
-    for (const Surface& surface : {Surface{1.0, 1.0, 0.0}, Surface{0.1, 0.9, 0.3}})
+    for (const Surface& surface :
+         {Surface{.mu = 1.0},
+          Surface{.mu = 0.1, .restitution = 0.9, .tangential_restitution = 0.3}})
         for (std::uint64_t seed = 1; seed <= 200; ++seed)
             for (const bool wall : {false, true}) {
                 const RandomCollision c = collide_at_random(seed, wall, surface);
@@ -46,7 +48,7 @@ TEST(TorqueBudget, ReferenceCollisionsGiveTheDocumentedSpins) {
     add_disc(s, {0.0, 0.0}, {0.0, 1.0});
     add_disc(s, {0.0, 2.0}, {0.5, -1.0});
     Body a{s.velocity(0), 0.0, 1.0, 1.0, 0.1}, b{s.velocity(1), 0.0, 1.0, 1.0, 0.1};
-    const Impulse discs = collide(a, b, {0.0, 2.0}, Surface{1.0, 1.0, 0.0});
+    const Impulse discs = collide(a, b, {0.0, 2.0}, Surface{.mu = 1.0});
     const AngularImpulse pair =
         angular_impulse({0, s.clock, EventKind::disc_disc, 0, 1, {0.0, 1.0}, discs, 0.0}, s);
     EXPECT_NEAR(pair.discs_on_spins, 2.0 * 10.0 * -0.25 / 11.0, 1e-15);
@@ -56,7 +58,7 @@ TEST(TorqueBudget, ReferenceCollisionsGiveTheDocumentedSpins) {
     one.container_centre = one.container_velocity = {0.0, 0.0};
     add_disc(one, {7.6, 0.0}, {-1.0, 0.3 / 11.0});
     Body disc{{1.0, 0.3}, 0.0, 1.0, 1.0, 0.1}, wall = wall_body({0.0, 0.0});
-    const Impulse J = collide(disc, wall, {7.6, 0.0}, Surface{1.0, 1.0, 0.0});
+    const Impulse J = collide(disc, wall, {7.6, 0.0}, Surface{.mu = 1.0});
     const AngularImpulse t =
         angular_impulse({0, one.clock, EventKind::disc_wall, 0, 0, {1.0, 0.0}, J, 0.0}, one);
     EXPECT_NEAR(t.wall_on_spins, 10.0 * -0.3 / 11.0, 1e-15);
@@ -70,7 +72,8 @@ TEST(TorqueBudget, RowsArePerTimeAndTheProfileSumsToThem) {
     TorqueBudget budget, twice;
     AngularImpulse sum;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
-        const RandomCollision c = collide_at_random(seed, seed % 2 == 0, Surface{1.0, 0.9, 0.0});
+        const RandomCollision c =
+            collide_at_random(seed, seed % 2 == 0, Surface{.mu = 1.0, .restitution = 0.9});
         const AngularImpulse t = angular_impulse(c.event, c.after);
         sum.wall_normal += t.wall_normal;
         sum.wall_tangential += t.wall_tangential;

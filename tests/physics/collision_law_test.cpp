@@ -32,7 +32,7 @@ Collision draw_collision() {
     const Body i = draw_body(), j = draw_body();
     const Vec2 separation = (i.radius + j.radius) * unit_circle(draw(0.0, 1.0));
     const double mu = draw(0.0, 1.5), e = draw(0.0, 1.0), beta = draw(0.0, 1.0);
-    Collision c{i, j, separation, {mu, e, beta}};
+    Collision c{i, j, separation, {.mu = mu, .restitution = e, .tangential_restitution = beta}};
     const double closing = -dot(separation, c.j.velocity - c.i.velocity);
     RC_PRE(std::abs(closing) > 1e-3);
     if (closing < 0.0) {
@@ -91,7 +91,7 @@ Body paper_body(Vec2 velocity) { return {velocity, 0.0, 1.0, 1.0, 0.1}; }
 
 TEST(CollisionLaw, GoldenSlidingCollisionOfTwoDiscs) {
     Body i = paper_body({0, 1}), j = paper_body({0.5, -1});
-    const Impulse J = collide(i, j, {0, 2}, {0.1});
+    const Impulse J = collide(i, j, {0, 2}, {.mu = 0.1});
     EXPECT_NEAR(i.velocity.x, 0.2, 1e-15);
     EXPECT_NEAR(i.velocity.y, -1.0, 1e-15);
     EXPECT_NEAR(j.velocity.x, 0.3, 1e-15);
@@ -104,7 +104,7 @@ TEST(CollisionLaw, GoldenSlidingCollisionOfTwoDiscs) {
 TEST(CollisionLaw, GoldenStickingCollisionOfTwoDiscs) {
     Body i = paper_body({0, 1}), j = paper_body({0.5, -1});
     const double before = energy_of(i, {0, 0}) + energy_of(j, {0, 0});
-    const Impulse J = collide(i, j, {0, 2}, {1.0});
+    const Impulse J = collide(i, j, {0, 2}, {.mu = 1.0});
     // J_stick = 0.5 / (2 + 2/10) = 5/22.
     EXPECT_NEAR(i.velocity.x, 5.0 / 22.0, 1e-15);
     EXPECT_NEAR(i.velocity.y, -1.0, 1e-15);
@@ -118,7 +118,7 @@ TEST(CollisionLaw, GoldenStickingCollisionOfTwoDiscs) {
 
 TEST(CollisionLaw, GoldenCollisionWithTheWall) {
     Body disc = paper_body({1, 0.3}), wall = wall_body({0, 0});
-    collide(disc, wall, {7.6, 0}, {1.0});
+    collide(disc, wall, {7.6, 0}, {.mu = 1.0});
     EXPECT_NEAR(disc.velocity.x, -1.0, 1e-15);
     EXPECT_NEAR(disc.velocity.y, 0.3 / 11.0, 1e-15);
     EXPECT_NEAR(disc.spin, -0.3 / 11.0, 1e-15);
@@ -132,7 +132,7 @@ TEST(CollisionLaw, SpinningDiscRollsAlongTheWallLikeAWheel) {
     // friction pushes the disc down.
     Body disc = paper_body({1, 0}), wall = wall_body({0, 0});
     disc.spin = 1.0;
-    collide(disc, wall, {7.6, 0}, {1.0});
+    collide(disc, wall, {7.6, 0}, {.mu = 1.0});
     EXPECT_LT(disc.velocity.y, 0.0);
     EXPECT_LT(disc.spin, 1.0);
 }
@@ -140,7 +140,7 @@ TEST(CollisionLaw, SpinningDiscRollsAlongTheWallLikeAWheel) {
 TEST(CollisionLaw, ConservesSpinWithoutFriction) {
     Body i = paper_body({0, 1}), j = paper_body({0.5, -1});
     i.spin = 0.7;
-    collide(i, j, {0, 2}, {0.0});
+    collide(i, j, {0, 2}, {.mu = 0.0});
     EXPECT_EQ(i.spin, 0.7);
     EXPECT_EQ(j.spin, 0.0);
     EXPECT_EQ(i.velocity.x, 0.0);
@@ -208,7 +208,7 @@ RC_GTEST_PROP(CollisionLaw, StickingContactReversesTheFractionBetaOfItsSlip, ())
 
 RC_GTEST_PROP(CollisionLaw, StickingContactWithoutBetaStopsItsSlip, ()) {
     Collision c = *rc::gen::element(0, 1) ? draw_collision() : draw_wall_collision();
-    c.surface = {1e6, 1.0, 0.0};
+    c.surface = {.mu = 1e6};
     apply(c);
     RC_ASSERT(std::abs(slip(c)) < rounding);
 }

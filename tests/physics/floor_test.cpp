@@ -35,7 +35,7 @@ Disc draw_sphere() {
 TEST(Floor, SlidingSphereRollsAtFiveSeventhsOfItsSpeed) {
     const double v = 1.4, deceleration = 0.3;
     const Disc start = sphere({v, 0.0});
-    const Floor floor{deceleration};
+    const Floor floor{.deceleration = deceleration};
     const FloorMotion motion = floor_motion(start, floor, {0.0, 0.0});
     EXPECT_NEAR(motion.begins_to_roll, 2.0 * v / (7.0 * deceleration), floor_rounding);
     const Disc rolls = set_rolling(start, motion, floor, {0.0, 0.0});
@@ -46,8 +46,8 @@ TEST(Floor, SlidingSphereRollsAtFiveSeventhsOfItsSpeed) {
 
 TEST(Floor, RollingSphereContinuesToRoll) {
     const Vec2 u{0.3, -0.7};
-    const Disc rolls = settled(sphere({1.234567, 0.345678}, {0.9, 0.1}), {1.92}, u);
-    const FloorMotion motion = floor_motion(rolls, {1.92}, u);
+    const Disc rolls = settled(sphere({1.234567, 0.345678}, {0.9, 0.1}), {.deceleration = 1.92}, u);
+    const FloorMotion motion = floor_motion(rolls, {.deceleration = 1.92}, u);
     EXPECT_EQ(motion.begins_to_roll, never);
     EXPECT_EQ(motion.acceleration.x, 0.0);
     EXPECT_EQ(motion.acceleration.y, 0.0);
@@ -56,11 +56,12 @@ TEST(Floor, RollingSphereContinuesToRoll) {
 TEST(Floor, RollingSphereGainsTwoSeventhsOfAVelocityJumpOfTheFloor) {
     const ContainerPath path = polygon_path(paper_amplitude, paper_period, paper_sides);
     Disc d = rolling_sphere({0.1, 0.2});
-    d = settled(d, {1.92}, path.segments[0].velocity);
+    d = settled(d, {.deceleration = 1.92}, path.segments[0].velocity);
     for (std::size_t k = 1; k < path.segments.size(); ++k) {
         const Vec2 jump = path.segments[k].velocity - path.segments[k - 1].velocity;
         const Disc before = d;
-        d = settled(moved_to(d, {}, path.segments[k].begin), {1.92}, path.segments[k].velocity);
+        d = settled(moved_to(d, {}, path.segments[k].begin), {.deceleration = 1.92},
+                    path.segments[k].velocity);
         EXPECT_LT(d.time, path.segments[k].end);
         EXPECT_NEAR(d.velocity.x, before.velocity.x + 2.0 / 7.0 * jump.x, floor_rounding);
         EXPECT_NEAR(d.velocity.y, before.velocity.y + 2.0 / 7.0 * jump.y, floor_rounding);
@@ -69,11 +70,11 @@ TEST(Floor, RollingSphereGainsTwoSeventhsOfAVelocityJumpOfTheFloor) {
 
 // The collision law combined with the floor.
 TEST(Floor, RollingSphereGivesARestingOneFiveSeventhsOfItsSpeed) {
-    const Floor floor{0.7};
+    const Floor floor{.deceleration = 0.7};
     const Disc moving = rolling_sphere({1.0, 0.0}), resting = sphere({0.0, 0.0});
     SphereBody i{{moving.velocity, 0.0, 1.0, 1.0, 1.0 / moving.inertia}, moving.rolling_spin};
     SphereBody j{{resting.velocity, 0.0, 1.0, 1.0, 1.0 / resting.inertia}, resting.rolling_spin};
-    collide(i, j, {2.0, 0.0}, {0.0});
+    collide(i, j, {2.0, 0.0}, {.mu = 0.0});
     EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x, 2.0 / 7.0,
                 floor_rounding);
     EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x, 5.0 / 7.0,
@@ -81,12 +82,12 @@ TEST(Floor, RollingSphereGivesARestingOneFiveSeventhsOfItsSpeed) {
 }
 
 TEST(Floor, RollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
-    const Floor floor{0.7};
+    const Floor floor{.deceleration = 0.7};
     for (const double e : {1.0, 0.9, 0.4, 0.1, 0.0}) {
         const Disc right = rolling_sphere({1.0, 0.0}), left = rolling_sphere({-1.0, 0.0});
         SphereBody i{{right.velocity, 0.0, 1.0, 1.0, 1.0 / right.inertia}, right.rolling_spin};
         SphereBody j{{left.velocity, 0.0, 1.0, 1.0, 1.0 / left.inertia}, left.rolling_spin};
-        collide(i, j, {2.0, 0.0}, {0.0, e});
+        collide(i, j, {2.0, 0.0}, {.mu = 0.0, .restitution = e});
         EXPECT_NEAR(settled(sphere(i.velocity, i.rolling_spin), floor).velocity.x,
                     -(5.0 * e - 2.0) / 7.0, floor_rounding);
         EXPECT_NEAR(settled(sphere(j.velocity, j.rolling_spin), floor).velocity.x,
@@ -97,7 +98,7 @@ TEST(Floor, RollingSpheresHeadOnReturnWithFiveEMinusTwoSevenths) {
 RC_GTEST_PROP(Floor, FrictionOpposesTheSlipAndStopsIt, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
-    const Floor floor{draw(0.01, 3.0)};
+    const Floor floor{.deceleration = draw(0.01, 3.0)};
     const FloorMotion motion = floor_motion(d, floor, u);
     const Vec2 c = slip_on_floor(d, u);
     RC_PRE(dot(c, c) > 1e-6);
@@ -117,7 +118,7 @@ TEST(Floor, SlidingCoinStopsAndKeepsItsSpin) {
     const Vec2 u{0.25, -0.5};
     Disc start = sphere({u.x + v, u.y});
     start.spin = 0.7;
-    const Floor floor{deceleration, true};
+    const Floor floor{.deceleration = deceleration, .bodies_lie_flat = true};
     const FloorMotion motion = floor_motion(start, floor, u);
     EXPECT_NEAR(motion.begins_to_roll, v / deceleration, floor_rounding);
     const Disc rests = set_rolling(start, motion, floor, u);
@@ -132,7 +133,9 @@ TEST(Floor, SlidingCoinStopsAndKeepsItsSpin) {
 }
 
 /// Rolling resistance as strong as friction, so that both effects are visible.
-Floor resisting_floor(double resistance) { return {0.9, false, resistance}; }
+Floor resisting_floor(double resistance) {
+    return {.deceleration = 0.9, .rolling_resistance = resistance};
+}
 
 // a = μ_r g / (1 + I/(m R²)), 5/7 μ_r g for a solid sphere. It stops after the time w/a and the
 // distance w²/2a.
@@ -164,7 +167,7 @@ TEST(Floor, RollingResistanceStopsAShellLater) {
 TEST(Floor, RollingResistanceActsOnlyWhileASphereRolls) {
     const Vec2 u{0.1, 0.2};
     const Disc start = sphere({1.4, -0.3}, {0.2, 0.3});
-    const Floor without{0.9}, with = resisting_floor(0.05);
+    const Floor without{.deceleration = 0.9}, with = resisting_floor(0.05);
     const FloorMotion a = floor_motion(start, without, u), b = floor_motion(start, with, u);
     EXPECT_EQ(a.begins_to_roll, b.begins_to_roll);
     EXPECT_EQ(a.acceleration.x, b.acceleration.x);
@@ -212,7 +215,7 @@ TEST(Floor, RollingSphereWithoutResistanceIsNotAccelerated) {
 RC_GTEST_PROP(Floor, ConservesAngularMomentumAboutTheContactPoint, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
-    const Floor floor{draw(0.01, 3.0)};
+    const Floor floor{.deceleration = draw(0.01, 3.0)};
     const FloorMotion motion = floor_motion(d, floor, u);
     RC_PRE(motion.begins_to_roll != never);
     const Disc rolls = set_rolling(d, motion, floor, u);
@@ -229,7 +232,7 @@ RC_GTEST_PROP(Floor, ConservesAngularMomentumAboutTheContactPoint, ()) {
 RC_GTEST_PROP(Floor, SlidingDissipatesTheWorkOfFriction, ()) {
     const Disc d = draw_sphere();
     const Vec2 u = draw_vector(1.0);
-    const Floor floor{draw(0.01, 3.0)};
+    const Floor floor{.deceleration = draw(0.01, 3.0)};
     const FloorMotion motion = floor_motion(d, floor, u);
     RC_PRE(motion.begins_to_roll != never);
     const auto energy = [&](Disc s) {

@@ -97,7 +97,9 @@ SpherePair draw_sphere_collision(bool wall) {
     SpherePair c{i,
                  wall ? wall_for_spheres(j.velocity) : j,
                  (i.radius + j.radius) * unit_circle(draw(0.0, 1.0)),
-                 {draw(0.0, 1.5), draw(0.0, 1.0), draw(0.0, 1.0)}};
+                 {.mu = draw(0.0, 1.5),
+                  .restitution = draw(0.0, 1.0),
+                  .tangential_restitution = draw(0.0, 1.0)}};
     const double closing = -dot(c.separation, c.j.velocity - c.i.velocity);
     RC_PRE(std::abs(closing) > 1e-3);
     if (closing < 0.0) {
@@ -189,7 +191,7 @@ RC_GTEST_PROP(SphereCollision, WithoutVerticalFrictionKeepsTheRollingSpin, ()) {
 
 RC_GTEST_PROP(SphereCollision, ConservesEnergyIfElasticAndSmooth, ()) {
     SpherePair c = draw_sphere_collision();
-    c.surface = {0.0};
+    c.surface = {.mu = 0.0};
     const double before = c.energy();
     collide(c.i, c.j, c.separation, c.surface);
     RC_ASSERT(std::abs(c.energy() - before) <= before * sphere_rounding);
@@ -316,9 +318,9 @@ SphereBody rolling_along_x(double v) { return {{{v, 0.0}, 0.0, 1.0, 1.0, 2.5}, {
 TEST(SphereCollision, SphereRollingIntoTheWallIsLiftedAndKeepsTwoSeventhsOfItsSpin) {
     // Rolling along +x: ω_y = v. Head-on, so nothing slips horizontally.
     SphereBody i = rolling_along_x(0.8), wall = wall_for_spheres({0.0, 0.0});
-    const SpherePair c{i, wall, {7.6, 0.0}, {100.0}};
+    const SpherePair c{i, wall, {7.6, 0.0}, {.mu = 100.0}};
     EXPECT_DOUBLE_EQ(c.slip().z, 0.8);
-    const Impulse J = collide(i, wall, {7.6, 0.0}, {100.0});
+    const Impulse J = collide(i, wall, {7.6, 0.0}, {.mu = 100.0});
     EXPECT_EQ(J.tangential, 0.0);
     // 1/m_z = 1/m + R²/I = 3.5; it then rolls up the wall, with R ω = w = J/m.
     EXPECT_NEAR(J.vertical, -2.0 / 7.0 * 0.8, 1e-15);
@@ -329,7 +331,7 @@ TEST(SphereCollision, SphereRollingIntoTheWallIsLiftedAndKeepsTwoSeventhsOfItsSp
 TEST(SphereCollision, SphereSpinningBackwardsAtTheWallIsPushedDownAndStops) {
     SphereBody i = rolling_along_x(0.8), wall = wall_for_spheres({0.0, 0.0});
     i.rolling_spin.y = -0.5;
-    const Impulse J = collide(i, wall, {7.6, 0.0}, {100.0});
+    const Impulse J = collide(i, wall, {7.6, 0.0}, {.mu = 100.0});
     // The floor holds it: 1/m_z = R²/I = 2.5.
     EXPECT_NEAR(J.vertical, 0.4 * 0.5, 1e-15);
     EXPECT_NEAR(i.rolling_spin.y, 0.0, 1e-15);
@@ -340,7 +342,7 @@ TEST(SphereCollision, SphereSpinningBackwardsAtTheWallIsPushedDownAndStops) {
 // mass.
 TEST(SphereCollision, EffectiveVerticalMassOfEqualSolidSpheresIsASixth) {
     SphereBody i = rolling_along_x(1.0), j = rolling_along_x(0.5);
-    const Impulse J = collide(i, j, {2.0, 0.0}, {100.0});
+    const Impulse J = collide(i, j, {2.0, 0.0}, {.mu = 100.0});
     EXPECT_NEAR(J.vertical, -1.5 / 6.0, 1e-15);
     EXPECT_NEAR(i.rolling_spin.y, 1.0 - 2.5 * 0.25, 1e-15);
     EXPECT_NEAR(j.rolling_spin.y, 0.5 - 2.5 * 0.25, 1e-15);
@@ -348,7 +350,7 @@ TEST(SphereCollision, EffectiveVerticalMassOfEqualSolidSpheresIsASixth) {
     // In the reverse order j is lifted.
     i = rolling_along_x(-1.0);
     j = rolling_along_x(-1.2);
-    EXPECT_NEAR(collide(i, j, {2.0, 0.0}, {100.0}).vertical, 2.2 / 6.0, 1e-15);
+    EXPECT_NEAR(collide(i, j, {2.0, 0.0}, {.mu = 100.0}).vertical, 2.2 / 6.0, 1e-15);
 }
 
 // The front of a rolling sphere moves down, its back up. Two fronts do not slip; a front and a back
@@ -380,8 +382,8 @@ RC_GTEST_PROP(SphereCollision, WithoutVerticalSlipEqualsThatOfDiscs, ()) {
 // On a floor, a collision within t_c is elastic, or separates the two for a time t_c at least.
 // Other collisions are unchanged.
 TEST(SphereCollision, SpheresPressedTogetherSeparateForTheContactDuration) {
-    const Surface surface{0.0, 0.5, 0.0, 1e-2};
-    const Floor floor{2.0};
+    const Surface surface{.mu = 0.0, .restitution = 0.5, .contact_duration = 1e-2};
+    const Floor floor{.deceleration = 2.0};
     const auto speed_after = [&](double u, double since_last, const Floor& on) {
         SphereBody i{{{u, 0.0}, 0.0, 1.0, 1.0, 2.5}, {0.0, 0.0}};
         SphereBody wall = wall_for_spheres({0.0, 0.0});

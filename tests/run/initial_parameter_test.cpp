@@ -6,6 +6,7 @@
 
 #include "run/rejected_parameters.hpp"
 #include "swirl/run/json.hpp"
+#include "swirl/run/parameter_readers.hpp"
 #include "swirl/run/run.hpp"
 
 namespace swirl {

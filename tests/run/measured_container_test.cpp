@@ -26,11 +26,10 @@ constexpr int frames = 511;
 InitialState container(std::size_t discs, const Surface& disc_surface,
                        const Surface& wall_surface) {
     const auto positions = place_discs(std::vector<double>(discs, 1.0), R, 3);
-    InitialState scene{{},
-                       polygon_path(paper_amplitude, paper_period, paper_sides),
-                       R,
-                       disc_surface,
-                       wall_surface};
+    InitialState scene{.path = polygon_path(paper_amplitude, paper_period, paper_sides),
+                       .container_radius = R,
+                       .disc_surface = disc_surface,
+                       .wall_surface = wall_surface};
     const Segment& segment = scene.path.segments.front();
     for (const Vec2& p : *positions)
         scene.discs.push_back(
@@ -39,7 +38,9 @@ InitialState container(std::size_t discs, const Surface& disc_surface,
 }
 
 TEST(MeasuredContainer, TheEnergyBudgetClosesToRounding) {
-    for (const Surface& surface : {Surface{1.0, 1.0, 0.0}, Surface{0.5, 0.97, 0.3}}) {
+    for (const Surface& surface :
+         {Surface{.mu = 1.0},
+          Surface{.mu = 0.5, .restitution = 0.97, .tangential_restitution = 0.3}}) {
         Simulation simulation(container(30, surface, surface));
         Snapshot s = simulation.snapshot();
         const double before = kinetic_energy(s);
@@ -60,7 +61,9 @@ TEST(MeasuredContainer, TheEnergyBudgetClosesToRounding) {
 // angular momenta between the snapshots.
 TEST(MeasuredContainer, TheTorqueBudgetClosesToRoundingInEveryBlock) {
     for (const bool circle : {false, true}) {
-        InitialState scene = container(40, {0.5, 0.97, 0.3}, {0.7, 0.97, 0.3});
+        InitialState scene =
+            container(40, {.mu = 0.5, .restitution = 0.97, .tangential_restitution = 0.3},
+                      {.mu = 0.7, .restitution = 0.97, .tangential_restitution = 0.3});
         if (circle) scene.path = circular_path(paper_amplitude, paper_period);
         Simulation simulation(scene);
         Snapshot s = simulation.snapshot();
@@ -103,7 +106,7 @@ TEST(MeasuredContainer, TheTorqueBudgetClosesToRoundingInEveryBlock) {
 
 TEST(MeasuredContainer, TractionObeysCoulombAndRatesAddUp) {
     const double mu = 0.3;
-    Simulation simulation(container(40, {mu, 1.0, 0.0}, {mu, 1.0, 0.0}));
+    Simulation simulation(container(40, {.mu = mu}, {.mu = mu}));
     simulation.advance_to(3, 0.0);
     Snapshot s = simulation.snapshot();
     WallStress stress(R, 36);
@@ -148,13 +151,14 @@ double nearest_to_the_centre_of_mass(const Snapshot& s) {
 
 // The centre of mass followed from event to event equals the one summed over the discs.
 TEST(MeasuredContainer, FollowedRotationEqualsThatOfAllDiscs) {
-    InitialState mixture = container(30, Surface{0.7}, Surface{0.4});
+    InitialState mixture = container(30, Surface{.mu = 0.7}, Surface{.mu = 0.4});
     for (std::size_t i = 0; i < mixture.discs.size(); ++i) mixture.discs[i].mass = 0.3 + double(i);
-    InitialState circle = container(28, Surface{1.0}, Surface{1.0});
+    InitialState circle = container(28, Surface{.mu = 1.0}, Surface{.mu = 1.0});
     circle.path = circular_path(paper_amplitude, paper_period);
-    const Surface dissipates{0.5, 0.97, 0.3, 1e-3};
-    const InitialState scenes[] = {container(48, Surface{1.0}, Surface{1.0}),
-                                   container(5, Surface{1.0}, Surface{1.0}),
+    const Surface dissipates{
+        .mu = 0.5, .restitution = 0.97, .tangential_restitution = 0.3, .contact_duration = 1e-3};
+    const InitialState scenes[] = {container(48, Surface{.mu = 1.0}, Surface{.mu = 1.0}),
+                                   container(5, Surface{.mu = 1.0}, Surface{.mu = 1.0}),
                                    container(30, dissipates, dissipates), mixture, circle};
     for (const InitialState& scene : scenes) {
         Simulation simulation(scene);
@@ -238,7 +242,7 @@ Seen watch(std::size_t discs, const Surface& surface, int periods) {
 }
 
 TEST(MeasuredContainer, MeanOfTheProfileIsRotationMinusOmega) {
-    const Seen seen = watch(28, {1.0, 1.0, 0.0}, 10);
+    const Seen seen = watch(28, {}, 10);
     double sum = 0.0, visits = 0.0;
     for (std::size_t k = 0; k < seen.profile.slices(); ++k) {
         if (seen.profile.visits(k) == 0.0) continue;
@@ -253,7 +257,7 @@ TEST(MeasuredContainer, MeanOfTheProfileIsRotationMinusOmega) {
 }
 
 TEST(MeasuredContainer, Slow_PinnedDiscsBehaveAsInThePaper) {
-    const Seen few = watch(24, {1.0, 1.0, 0.0}, 300), many = watch(48, {1.0, 1.0, 0.0}, 300);
+    const Seen few = watch(24, {}, 300), many = watch(48, {}, 300);
     // "The slip parameter of the particles in the pinned region approaches 1 as N is increased."
     EXPECT_GT(row_of(many.slip, "pinned_region").mean, 0.95);
     EXPECT_LT(row_of(many.slip, "pinned_region").mean, 1.02);

@@ -9,14 +9,13 @@
 #include <fstream>
 #include <sstream>
 
-#include "../../bindings/wasm/sliders.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
 namespace {
 
 const std::string page = std::string(SWIRL_SOURCE_DIR) + "/docs/reference/parameters.md";
-constexpr std::string_view begin = "<!-- made of src/swirl/run/parameters.hpp -->\n";
+constexpr std::string_view begin = "<!-- made of src/swirl/run/parameter_table.cpp -->\n";
 constexpr std::string_view end = "<!-- end -->\n";
 
 /// Escapes bars, which would end the cell.
@@ -70,21 +69,24 @@ TEST(ParameterTable, InTheDocsIsUpToDate) {
     EXPECT_EQ(docs.substr(first, to - first), table());
 }
 
-// The page has a slider for every number, and the slider includes the default.
 TEST(ParameterTable, DescriptionsFitIntoTheHelp) {
     constexpr std::size_t max_bytes = 62;  // 60 characters, and two bytes more for π
     for (const Parameter& p : run_parameters)
         EXPECT_LE(std::string_view(p.description).size(), max_bytes) << p.name;
 }
 
-TEST(ParameterTable, EveryNumberHasASliderInsideItsRange) {
+// The page has a label for every control and a slider for every number, which includes the default.
+TEST(ParameterTable, EveryNumberOnThePageHasASliderInsideItsRange) {
     for (const Parameter& p : run_parameters) {
         const bool is_number =
             p.is_settable() && (p.member.index() != 0 || std::string_view(p.form) == "NUMBER");
-        const Slider* const slider = slider_of(p.name);
-        ASSERT_EQ(slider != nullptr, is_number) << p.name;
+        EXPECT_EQ(p.page.group == nullptr, *p.page.label == '\0')
+            << p.name << " needs both .group and .label in .page, or none of them.";
+        if (!p.page.group) continue;
+        const auto& [first, last, step] = p.page.slider;
+        ASSERT_EQ(step > 0.0, is_number)
+            << p.name << " needs a .slider in .page if it is a number, and only then.";
         if (!is_number) continue;
-        const auto& [name, first, last, step] = *slider;
         EXPECT_LT(first, last) << p.name;
         EXPECT_GE(first, p.range.lowest) << p.name;
         EXPECT_LE(last, p.range.highest > 0.0 ? p.range.highest : last) << p.name;

@@ -5,11 +5,14 @@
 
 #include <fmt/format.h>
 
-#include <map>
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
 
+#include "run/other_values.hpp"
 #include "run/rejected_parameters.hpp"
+#include "swirl/physics/contact.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -65,36 +68,6 @@ TEST(RunParameters, NamesAreUniqueAndRejectInvalidTexts) {
     }
 }
 
-/// The text of a value other than the default, for any settable parameter.
-std::string another(const Parameter& p) {
-    static const std::map<std::string, std::string> words = {{"mu", "0.5"},
-                                                             {"inertia", "ring"},
-                                                             {"mixture", "2:1.2"},
-                                                             {"speed", "2"},
-                                                             {"path", "circle"},
-                                                             {"frictionless", "bulk"},
-                                                             {"container_radius", "9"},
-                                                             {"direction", "clockwise"},
-                                                             {"sizes", "uniform:0.9:1.1"},
-                                                             {"initial", "states 2:0:1:0:0"},
-                                                             {"periods", "50"},
-                                                             {"warmup", "7"},
-                                                             {"ramp", "mu=0.5:0.7@2..9"},
-                                                             {"preset", "experiment"},
-                                                             {"body", "sphere"},
-                                                             {"floor", "sliding"},
-                                                             {"rolling_resistance", "0.01"},
-                                                             {"length_unit", "3mm"},
-                                                             {"time_unit", "22ms"}};
-    if (const auto found = words.find(p.name); found != words.end()) return found->second;
-    const ParameterValue value =
-        p.written != WrittenIf::always ? ParameterValue(std::stod(default_of(p))) : value_of(p, {});
-    if (const auto* number = std::get_if<double>(&value))
-        return fmt::format("{}", *number == p.range.lowest ? 0.5 * p.range.highest : 0.9 * *number);
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole - 1);
-    return "7";
-}
-
 // The identity of a resumed run and the seeds of a sweep use the JSON, so it must distinguish runs
 // by every parameter.
 TEST(RunParameters, EveryParameterSurvivesTheJson) {
@@ -104,20 +77,72 @@ TEST(RunParameters, EveryParameterSurvivesTheJson) {
                   p.is_written() && p.written == WrittenIf::always)
             << p.name;
         if (!p.is_settable()) continue;
-        ParameterTexts texts{{p.name, another(p)}};
-        for (const char* sphere_parameter :
-             {"floor", "rolling_resistance", "vertical_disc", "vertical_wall"})
-            if (p.name == std::string(sphere_parameter))
-                texts["body"] = "sphere";  // not allowed for discs
-        for (const char* floor_parameter : {"floor_friction", "gravity", "rolling_resistance"})
-            if (p.name == std::string(floor_parameter)) texts["floor"] = "sliding";
-        if (p.name == std::string("length_unit")) texts["time_unit"] = "22ms";
-        if (p.name == std::string("time_unit")) texts["length_unit"] = "3mm";
+        ParameterTexts texts = needed_by(p);
+        texts[p.name] = another(p);
         const RunConfig config = resolve(texts);
         const nlohmann::ordered_json json = config_json(config);
         EXPECT_NE(json.dump(), paper) << p.name;
         EXPECT_EQ(config_json(resolve(parameters_in(json))), json) << p.name;
         EXPECT_EQ(config_json(resolve(texts_of(config))), json) << p.name;
+    }
+}
+
+/// The state after some events, or nothing if there is no such run.
+std::optional<std::uint64_t> state_after(const ParameterTexts& texts) try {
+    Simulation simulation(make_initial_state(resolve(texts)));
+    simulation.run(3000);
+    return simulation.state_hash();
+} catch (const UsageError&) {
+    return {};
+}
+
+// A parameter that only the table knows would be in every result and change none.
+TEST(RunParameters, EveryNumberChangesTheTrajectory) {
+    for (const Parameter& p : run_parameters) {
+        if (p.page.slider.step == 0.0 || p.group == parameter_group::run) continue;
+        ParameterTexts texts = needed_by(p);
+        texts.try_emplace("discs", "20");
+        texts.try_emplace("restitution", "0.9");  // the contact duration has an effect
+        const auto without = state_after(texts);
+        bool has_effect = false;
+        const auto& [from, to, step] = p.page.slider;
+        for (const double value : {from, 0.5 * (from + to), to}) {
+            texts[p.name] = fmt::format("{}", value);
+            const auto with = state_after(texts);
+            has_effect = has_effect || (with && with != without);
+        }
+        EXPECT_TRUE(has_effect) << option_name(p.name)
+                                << " changes no trajectory: use its coefficient in "
+                                   "physics/collision_law.hpp, or its member in run/config.cpp.";
+    }
+}
+
+TEST(RunParameters, EveryCoefficientOfTheCollisionLawHasRows) {
+    for (const Coefficient& c : coefficients)
+        for (const Contacts contacts : {Contacts::of_particles, Contacts::with_wall}) {
+            const auto is_row = [&](const Parameter& p) {
+                return p.coefficient == c.member &&
+                       (p.contacts == Contacts::all || p.contacts == contacts);
+            };
+            EXPECT_EQ(std::ranges::count_if(run_parameters, is_row), 1)
+                << "Surface::" << c.name << " of "
+                << (contacts == Contacts::with_wall ? "the wall" : "particles")
+                << " needs one row with .coefficient in run/parameter_table.cpp.";
+        }
+}
+
+TEST(RunParameters, ColumnsOfARowBelongTogether) {
+    for (const Parameter& p : run_parameters) {
+        const bool needs_number = p.coefficient || p.can_ramp() || needs_floor(p.applies_to) ||
+                                  needs_spheres(p.applies_to) || p.in_preset > InPreset::set;
+        if (needs_number && p.name != std::string_view("mu")) {
+            EXPECT_NE(p.number(), nullptr) << p.name << " needs a member that is a double.";
+        }
+        EXPECT_EQ(p.coefficient != nullptr, p.contacts != Contacts::none) << p.name;
+        if (p.can_ramp()) {
+            EXPECT_THAT(find_parameter("ramp")->details, testing::HasSubstr(p.name))
+                << "the details of --ramp list what can change.";
+        }
     }
 }
 
@@ -145,16 +170,11 @@ TEST(RunParameters, TheJsonIsUnchanged) {
               R"("periods":5,"warmup":"auto","seed":1})");
 }
 
-bool is_of_the_floor(std::string_view name) {
-    return name == "floor_friction" || name == "gravity" || name == "rolling_resistance";
-}
-
 TEST(RunParameters, DefaultTextsResolveToTheDefaults) {
     for (const Parameter& p : run_parameters) {
         const std::string text = default_of(p);
         if (!p.is_settable() || text.empty() || text.find(' ') != text.npos) continue;
-        ParameterTexts given;  // the floor's parameters need a floor
-        if (is_of_the_floor(p.name)) given = {{"floor", "sliding"}, {"body", "sphere"}};
+        ParameterTexts given = needed_by(p);
         const RunConfig expected = resolve(given);
         given[p.name] = text;
         EXPECT_EQ(config_json(resolve(given)), config_json(expected)) << p.name;
@@ -262,7 +282,7 @@ TEST(RunParameters, SpheresRollOnAFloorUnlessThereIsNone) {
 }
 TEST(RunParameters, ImpossibleFloorsAndPathsAreRejected) {
     expect_rejected({{"floor", "sliding"}, {"path", "circle"}}, "parabola");
-    expect_rejected({{"floor", "sliding"}, {"vertical_disc", "0"}}, "do not slip vertically");
+    expect_rejected({{"floor", "sliding"}, {"vertical_disc", "0"}}, "for spheres only");
     expect_rejected({{"body", "sphere"}, {"path", "circle"}}, "parabola");
     EXPECT_THAT(error_of({{"body", "sphere"}, {"floor", "rough"}}),
                 testing::AllOf(testing::HasSubstr("collide without end"),
@@ -295,7 +315,7 @@ TEST(RunParameters, OnlyDiscsWithoutAFloorLackFrictionInOneKindOfContact) {
 }
 TEST(RunParameters, RollingResistanceNeedsSpheresOnAFloorAndIsBounded) {
     EXPECT_EQ(error_of({{"body", "sphere"}, {"rolling_resistance", "0.01"}}), "");
-    expect_rejected({{"floor", "sliding"}, {"rolling_resistance", "0.01"}}, "discs do not roll");
+    expect_rejected({{"floor", "sliding"}, {"rolling_resistance", "0.01"}}, "for spheres only");
     expect_rejected({{"preset", "experiment"}, {"rolling_resistance", "0.34"}},
                     "--floor-friction, 0.33");
     expect_rejected({{"preset", "experiment"}, {"rolling_resistance", "-0.1"}}, "from 0 to");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "io/scratch.hpp"
+#include "run/other_values.hpp"
 #include "swirl/io/file_error.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/study/crossing.hpp"
@@ -48,22 +49,9 @@ TEST(SweepPlan, SeedsOfPointsAreUnchanged) {
 
 TEST(SweepPlan, EveryParameterCanBeAnAxis) {
     for (const std::string& name : parameter_names()) {
-        const std::string text = default_of(*find_parameter(name));
-        const std::string value = name == "mixture"        ? "2:1.2"
-                                  : name == "frictionless" ? "bulk"
-                                  : name == "sizes"        ? "uniform:0.9:1.1"
-                                  : name == "initial"      ? "states 2:0:1:0:0"
-                                  : name == "ramp"         ? "mu=0.5:0.7@2..9"
-                                  : name == "warmup"       ? "7"
-                                  : name == "periods"      ? "50"
-                                  : name == "preset"       ? "experiment"
-                                  : text.empty()           ? "1"
-                                                           : text;
-        ParameterTexts given{{name, value}};
-        if (name == "floor_friction" || name == "gravity" || name == "rolling_resistance")
-            given = {{name, value}, {"floor", "sliding"}, {"body", "sphere"}};
-        if (name == "length_unit" || name == "time_unit")
-            given = {{"length_unit", "3mm"}, {"time_unit", "22ms"}};
+        const Parameter& row = *find_parameter(name);
+        ParameterTexts given = needed_by(row);
+        given[name] = another(row);
         const SweepPlan plan = make_plan(given, 1);
         ASSERT_EQ(plan.axes.size(), given.size());
         EXPECT_NE(plan.axis(name), nullptr);

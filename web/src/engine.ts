@@ -25,6 +25,11 @@ export interface Parameter {
     /** From, to, step; null if the parameter has no slider. */
     slider: [number, number, number] | null;
     settable: boolean;
+    /** "main", or a key of texts.groups; null if the parameter is not on the page. */
+    page_group: string | null;
+    /** The everyday name in English. */
+    label: string;
+    applies_to: "every_run" | "floor" | "spheres" | "rolling_spheres" | "dissipation" | "polygons";
 }
 
 export interface Estimate {

@@ -5,7 +5,7 @@ import EngineWorker from "./worker?worker&inline";
 import {parameterOf, type Cause, type Parameter, type Rotation} from "./engine";
 import type {Frame, FromWorker, Maps, ToWorker} from "./messages";
 import {language} from "./start";
-import {counted, fill, engineMessage, texts} from "./texts";
+import {counted, fill, engineMessage, nameParameters, texts} from "./texts";
 
 /** The reports of the laboratory. Each part of the page listens to some of them. */
 export interface Reports {
@@ -279,6 +279,7 @@ export class Laboratory {
                 this.waitsForWorker = undefined;
                 if (this.parameters.length > 0) return;
                 this.parameters = data.parameters;
+                nameParameters(this.parameters);
                 return this.report("ready");
             case "started":
                 clearTimeout(this.placing);

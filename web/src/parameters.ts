@@ -7,59 +7,32 @@ import {texts} from "./texts";
 
 /** The inputs of a parameter: a text or a choice of words, and an optional slider. */
 interface Field {
+    parameter: Parameter;
     row: HTMLElement;
     text: HTMLInputElement | HTMLSelectElement;
     slider?: HTMLInputElement;
 }
 
-const main = ["discs", "mu", "amplitude"];
-/** The page has runs of any length, without ramps: moving a slider is the ramp. Samples are chosen
- *  by the engine. */
-const notShown = [
-    "events",
-    "events_per_sample",
-    "frictionless",
-    "initial",
-    "length_unit",
-    "periods",
-    "ramp",
-    "time_unit",
-];
-const groups = {
-    friction: ["mu_disc", "mu_wall"],
-    particles: ["preset", "body", "radius", "mass", "inertia", "cannot_spin", "mixture", "sizes"],
-    collisions: ["restitution", "tangential_restitution", "contact_duration"],
-    floor: [
-        "floor",
-        "floor_friction",
-        "gravity",
-        "rolling_resistance",
-        "vertical_disc",
-        "vertical_wall",
-    ],
-    container: ["container_radius", "period", "speed", "path", "sides", "direction", "path_phase"],
-    run: ["warmup", "seed"],
-};
-
 /** Whether a parameter has an effect with these values in effect. */
-function applies(name: string, {body, floor, restitution, path}: Record<string, string>): boolean {
+function applies(
+    {applies_to}: Parameter,
+    {body, floor, restitution, path}: Record<string, string>,
+): boolean {
     const sphere = body === "sphere",
         onFloor = floor !== undefined && floor !== "none";
-    switch (name) {
-        case "contact_duration":
-            return Number(restitution) < 1;
-        case "floor_friction":
-        case "gravity":
-            return onFloor;
-        case "rolling_resistance":
-            return onFloor && sphere;
-        case "vertical_disc":
-        case "vertical_wall":
-            return sphere;
-        case "sides":
-            return path !== "circle";
-        default:
+    switch (applies_to) {
+        case "every_run":
             return true;
+        case "dissipation":
+            return Number(restitution) < 1;
+        case "floor":
+            return onFloor;
+        case "rolling_spheres":
+            return onFloor && sphere;
+        case "spheres":
+            return sphere;
+        case "polygons":
+            return path !== "circle";
     }
 }
 
@@ -131,10 +104,8 @@ export class Parameters {
     }
 
     private build(): void {
-        const shown = this.lab.parameters.filter(
-            (row) => row.settable && !notShown.includes(row.name),
-        );
-        const byName = (name: string): Parameter[] => shown.filter((row) => row.name === name);
+        const inGroup = (group: string): Parameter[] =>
+            this.lab.parameters.filter((row) => row.page_group === group);
         this.spheres.addEventListener("change", () =>
             this.lab.set(
                 {preset: this.spheres.checked ? "experiment" : "", body: "", floor: ""},
@@ -142,9 +113,9 @@ export class Parameters {
             ),
         );
         byId("main-controls").replaceChildren(
-            ...main
-                .flatMap(byName)
-                .map((row, k) => this.control(row, k < 2 ? "control large" : "control")),
+            ...inGroup("main").map((row, k) =>
+                this.control(row, k < 2 ? "control large" : "control"),
+            ),
             element(
                 "label",
                 {className: "control check", title: texts.spheresHelp},
@@ -152,17 +123,15 @@ export class Parameters {
                 ` ${texts.spheres}`,
             ),
         );
-        const listed = [...main, ...Object.values(groups).flat()];
-        const others = shown.filter((row) => !listed.includes(row.name)).map((row) => row.name);
         this.groups.splice(
             0,
             Infinity,
-            ...Object.entries({...groups, run: [...groups.run, ...others]}).map(([group, names]) =>
+            ...Object.entries(texts.groups).map(([group, textContent]) =>
                 element(
                     "fieldset",
                     {},
-                    element("legend", {textContent: texts.groups[group] ?? group}),
-                    ...names.flatMap(byName).map((row) => this.control(row, "control")),
+                    element("legend", {textContent}),
+                    ...inGroup(group).map((row) => this.control(row, "control")),
                 ),
             ),
         );
@@ -206,7 +175,7 @@ export class Parameters {
             this.change(row.name, isNumber ? typedNumber(text.value.trim()) : text.value.trim()),
         );
         const made = element("div", {className}, label, text, ...proposed);
-        this.fields[row.name] = {row: made, text};
+        this.fields[row.name] = {parameter: row, row: made, text};
         if (!row.slider) return made;
         const [min, max, step] = row.slider.map(String) as [string, string, string];
         const slider = element("input", {
@@ -249,7 +218,7 @@ export class Parameters {
 
     private show(): void {
         const {lab, fields} = this;
-        for (const [name, {row, text, slider}] of Object.entries(fields)) {
+        for (const [name, {parameter, row, text, slider}] of Object.entries(fields)) {
             const value = lab.given[name] ?? "",
                 holds = lab.effectiveValue(name),
                 shown = shortened(holds.split(",")[0]!);
@@ -259,7 +228,10 @@ export class Parameters {
             if (typedNumber(text.value.trim()) !== typedNumber(wanted))
                 text.value = isChoice ? wanted : localized(wanted); // unless it is being typed
             if (slider) showOn(slider, value || shown);
-            row.hidden = !main.includes(name) && value === "" && !applies(name, lab.configuration);
+            row.hidden =
+                parameter.page_group !== "main" &&
+                value === "" &&
+                !applies(parameter, lab.configuration);
         }
         for (const group of this.groups)
             group.hidden = [...group.querySelectorAll<HTMLElement>(".control")].every(

@@ -28,6 +28,11 @@ export const examples: {name: string; help: string; given: Names}[] = (
     german ? de.examples : en.examples
 ) as {name: string; help: string; given: Names}[];
 
+/** The names of parameters in English, where the language of the page has no other. */
+export function nameParameters(rows: readonly {name: string; label: string}[]): void {
+    for (const {name, label} of rows) texts.labels[name] ??= label;
+}
+
 /** "1 disc", "48 discs": with the singular and the plural. */
 export const counted = (n: number, [one, several]: readonly string[]): string =>
     `${n} ${n === 1 ? one : several}`;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "swirl/physics/collision_law.hpp"
+#include "swirl/physics/contact_law.hpp"
 #include "swirl/physics/contact_time.hpp"
 #include "swirl/physics/initial_state.hpp"
 
@@ -44,12 +45,14 @@ class ReferenceBodies {
         const double since_last = t - larger(last_collision(i), last_collision(j));
         move_to(i, t);
         move_to(j, t);
-        Surface of_discs = state_.disc_surface;
-        const bool at_wall = is_at_wall(a, segment) && is_at_wall(b, segment);
-        if (state_.frictionless == (at_wall ? Frictionless::boundary : Frictionless::bulk))
-            of_discs.mu = 0.0;
-        const Surface surface = surface_at_contact(of_discs, since_last, b.position - a.position,
-                                                   b.velocity - a.velocity);
+        const Vec2 separation = b.position - a.position, centre = segment.position_at(t);
+        const Surface of_discs =
+            are_spheres() ? surface_by_law(state_.disc_surface, sphere_body(a), sphere_body(b),
+                                           separation, a.position - centre, b.position - centre)
+                          : surface_by_law(state_.disc_surface, body(a), body(b), separation,
+                                           a.position - centre, b.position - centre);
+        const Surface surface =
+            surface_at_contact(of_discs, since_last, separation, b.velocity - a.velocity);
         const Impulse J = are_spheres()
                               ? collide_pair(a, b, sphere_body(a), sphere_body(b), surface)
                               : collide_pair(a, b, body(a), body(b), surface);
@@ -62,8 +65,11 @@ class ReferenceBodies {
         const double since_last = t - last_collision(i);
         move_to(i, t);
         const Vec2 from_centre = a.position - segment.position_at(t), u = segment.velocity_at(t);
-        Surface of_wall = state_.wall_surface;
-        if (state_.frictionless == Frictionless::wall) of_wall.mu = 0.0;
+        const Surface of_wall =
+            are_spheres() ? surface_by_law(state_.wall_surface, sphere_body(a), wall_for_spheres(u),
+                                           from_centre, from_centre, {0.0, 0.0})
+                          : surface_by_law(state_.wall_surface, body(a), wall_body(u), from_centre,
+                                           from_centre, {0.0, 0.0});
         const Surface surface =
             surface_at_contact(of_wall, since_last, from_centre, u - a.velocity);
         const Impulse J =
@@ -106,11 +112,17 @@ class ReferenceBodies {
     void move_to(std::uint32_t i, double t) {
         state_.discs[i] = are_spheres() ? moved_to(disc(i), motions_[i], t) : disc(i).at(t);
     }
-    /// At the time of the disc's state.
-    bool is_at_wall(const Disc& d, const Segment& segment) const {
-        const Vec2 s = d.position - segment.position_at(d.time);
-        const double inner = state_.container_radius - boundary_layer * d.radius;
-        return !(inner > 0.0) || dot(s, s) > inner * inner;
+    /// The coefficients by a law of your own, if the scene has one.
+    template <class AnyBody>
+    Surface surface_by_law(const Surface& surface, const AnyBody& i, const AnyBody& j,
+                           const Vec2& separation, const Vec2& from_centre_i,
+                           const Vec2& from_centre_j) const {
+        if (!state_.law) return surface;
+        Impact impact = impact_of(i, j, separation);
+        impact.from_centre_i = from_centre_i;
+        impact.from_centre_j = from_centre_j;
+        impact.container_radius = state_.container_radius;
+        return state_.law.surface_of(state_.law.law.get(), surface, impact);
     }
     static Body body(const Disc& d) {
         return {d.velocity, d.spin, d.radius, 1.0 / d.mass, d.inverse_inertia()};

@@ -1,7 +1,7 @@
 // The effect of an event: a collision of two discs, a collision with the wall, a sphere that begins
 // to roll, or the container's next path segment. The event loop (event_loop.hpp) finds out which
-// event comes next. The collision law is in collision_law.hpp; the friction coefficients are those
-// of EngineState::disc_surface and EngineState::wall_surface.
+// event comes next. The collision law is in collision_law.hpp; its coefficients are those of
+// EngineState::disc_surface and EngineState::wall_surface, or of a law of your own (own_law.hpp).
 #pragma once
 
 #include "swirl/engine/collision_checks.hpp"
@@ -12,6 +12,16 @@
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
+
+/// Two bodies that touch at time t, before their collision. For the wall, j is the wall, and both
+/// positions are that of i.
+template <class Body>
+struct Contact {
+    const Body &i, &j;
+    const Vec2 &at_i, &at_j;
+    const Vec2& separation;
+    double t;
+};
 
 /// How events read and change discs. A disc moves uniformly between collisions; the floor has no
 /// effect.
@@ -33,13 +43,12 @@ struct Discs {
     }
     SWIRL_INLINE static bool change_with_segment(const EngineState&) { return false; }
 
-    /// The surfaces of two discs that touch at these positions at time t.
-    SWIRL_INLINE static const Surface& disc_surface(const EngineState& state, std::uint32_t,
-                                                    std::uint32_t, const Vec2&, const Vec2&,
-                                                    double) {
-        return state.disc_surface;
+    /// The coefficients of this contact.
+    SWIRL_INLINE static const Surface& surface_of(const EngineState&, const Surface& surface,
+                                                  const Contact<Body>&) {
+        return surface;
     }
-    /// The surface that a contact of two discs, or of one and the wall, has.
+    /// The same coefficients with the TC model.
     SWIRL_INLINE static Surface at_contact(const EngineState&, const Surface& surface,
                                            double since_last, const Vec2&, const Vec2&) {
         return swirl::at_contact(surface, since_last);
@@ -62,30 +71,6 @@ struct Discs {
         disc.position = disc.flight().position_at(state.clock);
         disc.time = 0.0;
         ++disc.collisions;
-    }
-};
-
-/// Discs that have no friction in some of their contacts with each other. Where a contact belongs
-/// depends only on the positions at the collision, so every search gives the same trajectory. The
-/// wall needs no rule of its own: there the friction coefficient is 0 (simulation_storage.cpp).
-struct DiscsWithPartialFriction : Discs {
-    /// True if a disc with its centre there is at the wall.
-    SWIRL_INLINE static bool is_at_wall(const EngineState& state, std::uint32_t i, const Vec2& at,
-                                        const Vec2& centre) {
-        const Vec2 s = at - centre;
-        const double inner = state.container_radius - boundary_layer * state.discs[i].radius;
-        return !(inner > 0.0) || dot(s, s) > inner * inner;
-    }
-    SWIRL_INLINE static Surface disc_surface(const EngineState& state, std::uint32_t i,
-                                             std::uint32_t j, const Vec2& at_i, const Vec2& at_j,
-                                             double t) {
-        if (!is_partial(state.frictionless)) return state.disc_surface;
-        const Vec2 centre = state.segments[state.segment].flight_at(t).position;
-        const bool at_wall =
-            is_at_wall(state, i, at_i, centre) && is_at_wall(state, j, at_j, centre);
-        Surface surface = state.disc_surface;
-        if (at_wall == (state.frictionless == Frictionless::boundary)) surface.mu = 0.0;
-        return surface;
     }
 };
 
@@ -143,10 +128,9 @@ struct Spheres {
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
         return state.spheres[i].last_collision;
     }
-    SWIRL_INLINE static const Surface& disc_surface(const EngineState& state, std::uint32_t,
-                                                    std::uint32_t, const Vec2&, const Vec2&,
-                                                    double) {
-        return state.disc_surface;
+    SWIRL_INLINE static const Surface& surface_of(const EngineState&, const Surface& surface,
+                                                  const Contact<Body>&) {
+        return surface;
     }
     SWIRL_INLINE static Surface at_contact(const EngineState& state, const Surface& surface,
                                            double since_last, const Vec2& separation,
@@ -195,7 +179,8 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
     const Vec2 s = at_j - at_i;
     const double since_last =
         t - larger(Bodies::last_collision(state, i), Bodies::last_collision(state, j));
-    const Surface& surfaces = Bodies::disc_surface(state, i, j, at_i, at_j, t);
+    const Surface& surfaces =
+        Bodies::surface_of(state, state.disc_surface, {before_i, before_j, at_i, at_j, s, t});
     state.elastic_by_tc += is_elastic_by_tc_model(surfaces, since_last);
     const Surface surface =
         Bodies::at_contact(state, surfaces, since_last, s, body_j.velocity - body_i.velocity);
@@ -234,9 +219,11 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
     Body body = before, wall = Bodies::wall(centre.velocity);
     const Vec2 s = at - centre.position;
     const double since_last = t - Bodies::last_collision(state, i);
-    state.elastic_by_tc += is_elastic_by_tc_model(state.wall_surface, since_last);
+    const Surface& surfaces =
+        Bodies::surface_of(state, state.wall_surface, {before, wall, at, at, s, t});
+    state.elastic_by_tc += is_elastic_by_tc_model(surfaces, since_last);
     const Surface surface =
-        Bodies::at_contact(state, state.wall_surface, since_last, s, wall.velocity - body.velocity);
+        Bodies::at_contact(state, surfaces, since_last, s, wall.velocity - body.velocity);
     const Impulse impulse = collide(body, wall, s, surface);
     if constexpr (internal_checks && !Bodies::have_floor) {
         const double clearance = state.container_radius - body.radius;
@@ -244,7 +231,7 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
             state.discs[i].flight(), state.segments[state.segment], clearance, t);
         state.largest_rounding = larger(state.largest_rounding, rounding);
         check_wall_collision({before, body, wall.velocity}, {wall, wall, wall.velocity}, s,
-                             clearance, state.wall_surface, impulse, state.largest_rounding,
+                             clearance, surfaces, impulse, state.largest_rounding,
                              state.overlapped_at_start);
     }
     Bodies::write_back(state, i, at, t, body);

@@ -10,7 +10,7 @@
 namespace swirl {
 namespace {
 
-const EventLoops& event_loops_of([[maybe_unused]] Width width) {
+const EventLoops& event_loops([[maybe_unused]] Width width) {
 #if defined(SWIRL_HAS_AVX512)
     if (width == Width::avx512) return event_loops_avx512;
 #endif
@@ -21,17 +21,27 @@ const EventLoops& event_loops_of([[maybe_unused]] Width width) {
 }
 
 const EventLoops& event_loops(const InitialState& scene, Width width) {
-    const EventLoops& loops = event_loops_of(width_meant(width));
-    // A fallback for other processors has no loops of its own for discs.
-    const bool has_loops = are_spheres(scene) || loops.lists.run != nullptr;
-    return is_partial(scene.frictionless) || !has_loops ? event_loops_partial_friction : loops;
+    return scene.law ? *scene.law.loops : event_loops(width_meant(width));
+}
+
+/// The method that suits the scene, if there is a loop for it; otherwise the one that always exists.
+SearchMethod method_of(const InitialState& scene, const RadiusRange& radii, const Tuning& tuning,
+                       const EventLoops& loops) {
+    const SearchMethod method = choose_search(scene, radii, tuning, loops.max_all_pairs);
+    if (are_spheres(scene))
+        return loops.few_spheres[0].run == nullptr ? SearchMethod::cells : method;
+    return method == SearchMethod::cells && loops.cells.run == nullptr ? SearchMethod::lists
+                                                                       : method;
 }
 
 }  // namespace
 
 Simulation::Storage::Storage(const InitialState& scene, const Progress& progress,
                              const Tuning& tuning, const Storage* previous)
-    : width(tuning.width), segments(scene.path.segments), memory(tuning.is_stopped) {
+    : width(tuning.width),
+      law(scene.law),
+      segments(scene.path.segments),
+      memory(tuning.is_stopped) {
     if (previous != nullptr)
         replace_search(scene, progress, tuning, *previous);
     else
@@ -61,8 +71,7 @@ State& Simulation::Storage::begin(const InitialState& scene, const Progress& pro
     state->container_radius = scene.container_radius;
     state->disc_surface = scene.disc_surface;
     state->wall_surface = scene.wall_surface;
-    state->frictionless = scene.frictionless;
-    if (scene.frictionless == Frictionless::wall) state->wall_surface.mu = 0.0;
+    state->law = law.law.get();
     state->floor = scene.floor;
     // Discs in columns are all predicted for the wall at once, so a wide horizon pays.
     state->horizons_per_turn = std::is_same_v<State, AllPairsState> ? 6.0 : 30.0;
@@ -89,7 +98,7 @@ void Simulation::Storage::begin_search(const InitialState& scene, const Progress
     const EventLoops& loops = event_loops(scene, tuning.width);
     const RadiusRange radii = radii_of(scene);
     const std::size_t last = scene.discs.size() - 1;
-    const SearchMethod method = choose_search(scene, radii, tuning, loops.max_all_pairs);
+    const SearchMethod method = method_of(scene, radii, tuning, loops);
     if (are_spheres(scene)) {
         if (method == SearchMethod::all_pairs)
             return set_up(
@@ -150,11 +159,22 @@ void Simulation::Storage::add_discs(const InitialState& scene) {
         const auto [entry, is_new] = species_of.try_emplace(
             {d.radius, d.mass, d.inertia, d.can_spin}, static_cast<std::uint32_t>(species.size()));
         if (is_new)
-            species.push_back({d.radius, d.mass, d.inertia, 1.0 / d.mass,
-                               are_spheres(scene) ? 1.0 / d.inertia : d.inverse_inertia(),
-                               d.can_spin});
-        state->discs[i] = {
-            d.position, d.velocity, d.time, d.radius, d.spin, 0, entry->second & 0xffffffu, 0, 0};
+            species.push_back(
+                {.radius = d.radius,
+                 .mass = d.mass,
+                 .inertia = d.inertia,
+                 .inverse_mass = 1.0 / d.mass,
+                 .inverse_inertia = are_spheres(scene) ? 1.0 / d.inertia : d.inverse_inertia(),
+                 .can_spin = d.can_spin});
+        state->discs[i] = {.position = d.position,
+                           .velocity = d.velocity,
+                           .time = d.time,
+                           .radius = d.radius,
+                           .spin = d.spin,
+                           .collisions = 0,
+                           .species = entry->second & 0xffffffu,
+                           .list_length = 0,
+                           .far_from_wall = 0};
         state->cold(i).angle = d.angle;
     }
     state->species = species.data();
@@ -173,19 +193,28 @@ void Simulation::Storage::add_spheres(const InitialState& scene) {
 }
 
 Progress Simulation::Storage::progress() const {
-    return {state->periods,
-            state->clock,
-            state->segment,
-            {state->disc_disc, state->disc_wall, state->path_vertex, state->elastic_by_tc,
-             state->begun_to_roll}};
+    return {.periods = state->periods,
+            .clock = state->clock,
+            .segment = state->segment,
+            .events = {.disc_disc = state->disc_disc,
+                       .disc_wall = state->disc_wall,
+                       .path_vertex = state->path_vertex,
+                       .elastic_by_tc = state->elastic_by_tc,
+                       .begins_to_roll = state->begun_to_roll}};
 }
 
 Disc Simulation::Storage::disc(std::uint32_t i) const {
     const HotDisc& d = state->discs[i];
     const Species& s = species[d.species];
-    Disc disc{d.position, d.velocity, state->cold(i).angle, d.spin, d.time, s.radius,
-              s.mass,     s.inertia};
-    disc.can_spin = s.can_spin;
+    Disc disc{.position = d.position,
+              .velocity = d.velocity,
+              .angle = state->cold(i).angle,
+              .spin = d.spin,
+              .time = d.time,
+              .radius = s.radius,
+              .mass = s.mass,
+              .inertia = s.inertia,
+              .can_spin = s.can_spin};
     if (state->spheres != nullptr) {
         disc.rolling_spin = state->spheres[i].rolling_spin;
         disc.last_collision = state->spheres[i].last_collision;
@@ -194,12 +223,11 @@ Disc Simulation::Storage::disc(std::uint32_t i) const {
 }
 
 InitialState Simulation::Storage::current_scene() const {
-    InitialState scene{{},
-                       {state->period, segments},
-                       state->container_radius,
-                       state->disc_surface,
-                       state->wall_surface};
-    scene.frictionless = state->frictionless;
+    InitialState scene{.path = {state->period, segments},
+                       .container_radius = state->container_radius,
+                       .disc_surface = state->disc_surface,
+                       .wall_surface = state->wall_surface,
+                       .law = law};
     scene.discs.reserve(state->size);
     for (std::uint32_t i = 0; i < state->size; ++i) scene.discs.push_back(disc(i));
     return scene;

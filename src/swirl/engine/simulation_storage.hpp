@@ -28,6 +28,7 @@ struct Simulation::Storage {
 
     const EventLoop* loop = nullptr;
     Width width;
+    OwnLaw law;
     std::vector<Segment> segments;
     std::vector<Species> species;
     AlignedMemory memory;

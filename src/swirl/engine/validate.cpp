@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "swirl/engine/neighbors/engine_state.hpp"
 #include "swirl/math/cpu_width.hpp"
 #include "swirl/physics/limits.hpp"
 
@@ -102,15 +103,15 @@ Problem problem_with(const ContainerPath& path, Shape shape) {
 }
 
 Problem problem_with(const Surface& s, const char* name) {
-    for (const auto& [what, value] :
-         {std::pair("mu of ", s.mu), std::pair("contact_duration of ", s.contact_duration)})
-        if (auto problem = unless_not_negative(joined({what, name}), value)) return problem;
-    for (const auto& [what, value] : {std::pair("restitution", s.restitution),
-                                      std::pair("tangential_restitution", s.tangential_restitution),
-                                      std::pair("vertical_friction", s.vertical_friction)})
-        if (!is_share(value))
-            return joined(
-                {what, " of ", name, " is ", text_of(value), ", but it must be from 0 to 1."});
+    for (const Coefficient& c : coefficients) {
+        const double value = s.*c.member;
+        const std::string what = joined({c.name, " of ", name});
+        if (!c.is_share) {
+            if (auto problem = unless_not_negative(what, value)) return problem;
+        } else if (!is_share(value)) {
+            return joined({what, " is ", text_of(value), ", but it must be from 0 to 1."});
+        }
+    }
     return {};
 }
 
@@ -226,6 +227,8 @@ Problem problem_with_values(const InitialState& scene) {
         return problem;
     if (auto problem = problem_with(scene.disc_surface, "the discs")) return problem;
     if (auto problem = problem_with(scene.wall_surface, "the wall")) return problem;
+    if (scene.law && scene.shape != Shape::disc && scene.law.loops->many_spheres.run == nullptr)
+        return "the contact law is for discs only, but the bodies are spheres or coins.";
     for (const auto& [what, value] :
          {std::pair("the deceleration by the floor", scene.floor.deceleration),
           std::pair("the rolling resistance of the floor", scene.floor.rolling_resistance)})

@@ -208,9 +208,10 @@ void EventLogReader::read_floor() {
     const bool has_resistance = file_->has_attribute("/floor", "rolling_resistance");
     floor_.emplace();
     floor_->floor = {
-        file_->number_attribute("/floor", "deceleration"),
-        file_->has_attribute("/floor", "lie_flat"),
-        has_resistance ? file_->number_attribute("/floor", "rolling_resistance") : 0.0};
+        .deceleration = file_->number_attribute("/floor", "deceleration"),
+        .bodies_lie_flat = file_->has_attribute("/floor", "lie_flat"),
+        .rolling_resistance =
+            has_resistance ? file_->number_attribute("/floor", "rolling_resistance") : 0.0};
     const Column column = file_->column("/floor/velocity");
     if (column.row_shape() != Dimensions{2} || column.rows() == 0)
         throw_inconsistent(path_, "/floor/velocity must have an x and a y for each path segment");

@@ -2,28 +2,38 @@
 // them (collision_law.hpp). Code that only describes surfaces or reads events needs no more.
 #pragma once
 
-#include <cstdint>
+#include "swirl/math/by_name.hpp"
 
 namespace swirl {
 
-/// The kind of contact in which discs have no friction, to find out what each kind causes: those
-/// with the wall; those of two discs that are both at the wall (`boundary`); or all other contacts
-/// of two discs (`bulk`).
-enum class Frictionless : std::uint8_t { none, wall, boundary, bulk };
-
-/// A disc is at the wall if its centre is less than this many of its radii from the wall.
-inline constexpr double boundary_layer = 1.5;
-
-/// The properties of a contact: friction coefficient μ ≥ 0, normal restitution e ∈ [0, 1],
-/// tangential restitution β ∈ [0, 1], and the duration t_c of a contact, which matters only for e <
-/// 1.
+/// The coefficients of the collision law. Each is a number that a contact has in all collisions; a
+/// law of your own makes them depend on the impact (contact_law.hpp).
 struct Surface {
-    double mu = 1.0;
-    double restitution = 1.0;
-    double tangential_restitution = 0.0;
-    double contact_duration = 0.0;
-    double vertical_friction = 1.0;  // κ ∈ [0, 1], spheres only; 0: friction is horizontal
+    [[no_unique_address]] ByName by_name{};
+    double mu = 1.0;                      // friction coefficient μ ≥ 0
+    double restitution = 1.0;             // normal restitution e ∈ [0, 1]
+    double tangential_restitution = 0.0;  // β ∈ [0, 1]
+    double contact_duration = 0.0;        // t_c; matters only for e < 1 or on a floor
+    double vertical_friction = 1.0;       // κ ∈ [0, 1], spheres only; 0: friction is horizontal
 };
+
+/// A coefficient with its name in messages and its allowed range.
+struct Coefficient {
+    const char* name;
+    double Surface::*member;
+    bool is_share;  // its range is 0 to 1; otherwise it is any number that is not negative
+};
+inline constexpr Coefficient coefficients[] = {
+    {.name = "mu", .member = &Surface::mu, .is_share = false},
+    {.name = "restitution", .member = &Surface::restitution, .is_share = true},
+    {.name = "tangential_restitution",
+     .member = &Surface::tangential_restitution,
+     .is_share = true},
+    {.name = "contact_duration", .member = &Surface::contact_duration, .is_share = false},
+    {.name = "vertical_friction", .member = &Surface::vertical_friction, .is_share = true},
+};
+static_assert(sizeof(Surface) == sizeof(coefficients) / sizeof(Coefficient) * sizeof(double),
+              "each member of Surface needs a row in `coefficients`");
 
 /// Impulses on body j, along n and along r; body i receives the opposite.
 struct Impulse {

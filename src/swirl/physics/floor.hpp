@@ -42,6 +42,7 @@
 // does.
 #pragma once
 
+#include "swirl/math/by_name.hpp"
 #include "swirl/math/real.hpp"
 #include "swirl/math/vec2.hpp"
 #include "swirl/physics/disc.hpp"
@@ -61,6 +62,7 @@ inline constexpr double shell_inertia(double mass, double radius) {
 }
 
 struct Floor {
+    [[no_unique_address]] ByName by_name{};
     double deceleration = 0.0;        // μ_f g, while sliding without rotation; 0: no floor
     bool bodies_lie_flat = false;     // coins
     double rolling_resistance = 0.0;  // μ_r g, of spheres

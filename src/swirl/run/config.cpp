@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "swirl/engine/partial_friction.hpp"
 #include "swirl/engine/placement.hpp"
 #include "swirl/math/random.hpp"
 #include "swirl/math/unit_circle.hpp"
@@ -154,21 +155,18 @@ std::optional<std::string> problem_with_rolling_resistance(const RunConfig& c) {
 }
 
 std::optional<std::string> problem_with_body(const RunConfig& c) {
-    const auto only_spheres = [](const char* name, double value, const char* verb) {
-        return fmt::format("{} is {}, but discs do not {}.\nhint: add --body sphere.", name, value,
-                           verb);
-    };
     if (c.frictionless != Frictionless::none && c.shape() != Shape::disc)
         return fmt::format(
             "--frictionless is only for discs without a floor.\nhint: use --mu-disc 0 or --mu-wall "
             "0.");
-    if (c.body == Shape::disc) {
-        if (c.rolling_resistance != 0.0)
-            return only_spheres("--rolling-resistance", c.rolling_resistance, "roll");
-        if (c.vertical_disc != 1.0)
-            return only_spheres("--vertical-disc", c.vertical_disc, "slip vertically");
-        if (c.vertical_wall != 1.0)
-            return only_spheres("--vertical-wall", c.vertical_wall, "slip vertically");
+    if (c.body == Shape::sphere) return {};
+    const RunConfig defaults;
+    for (const Parameter& p : run_parameters) {
+        if (!needs_spheres(p.applies_to)) continue;
+        const double value = c.*p.number();
+        if (value != defaults.*p.number())
+            return fmt::format("{} is {}, but it is for spheres only.\nhint: add --body sphere.",
+                               option_name(p.name), value);
     }
     return {};
 }
@@ -225,17 +223,32 @@ const char* body_word(const RunConfig& config) {
     return config.body == Shape::sphere ? "sphere" : "disc";
 }
 
+namespace {
+
+/// The coefficients of these contacts, from the rows that have one (parameter_table.cpp).
+Surface surface_of(Contacts contacts, const RunConfig& config) {
+    Surface surface;
+    for (const Parameter& p : run_parameters)
+        if (p.contacts == Contacts::all || p.contacts == contacts)
+            surface.*p.coefficient = config.*p.number();
+    return surface;
+}
+
+}  // namespace
+
 InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
-    return {
-        {},
-        path,
-        c.container_radius,
-        {c.mu_disc, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_disc},
-        {c.mu_wall, c.restitution, c.tangential_restitution, c.contact_duration, c.vertical_wall},
-        c.shape(),
-        {c.floor ? c.floor_friction * c.gravity : 0.0, c.shape() == Shape::coin,
-         c.floor ? c.rolling_resistance * c.gravity : 0.0},
-        c.frictionless};
+    InitialState scene{
+        .path = path,
+        .container_radius = c.container_radius,
+        .disc_surface = surface_of(Contacts::of_particles, c),
+        .wall_surface = surface_of(Contacts::with_wall, c),
+        .shape = c.shape(),
+        .floor = {.deceleration = c.floor ? c.floor_friction * c.gravity : 0.0,
+                  .bodies_lie_flat = c.shape() == Shape::coin,
+                  .rolling_resistance = c.floor ? c.rolling_resistance * c.gravity : 0.0},
+        .law = without_friction_in(c.frictionless)};
+    if (c.frictionless == Frictionless::wall) scene.wall_surface.mu = 0.0;
+    return scene;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include "swirl/engine/validate.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_readers.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/ramp.hpp"
 

@@ -11,6 +11,7 @@
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/initial_parameter.hpp"
+#include "swirl/run/parameter_readers.hpp"
 #include "swirl/run/particle_sizes.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/ramp.hpp"
@@ -278,19 +279,22 @@ void follow_preset(const ParameterTexts& given, RunConfig& config) {
             "speed of 1.\nhint: give lengths and times with units, such as 3mm and 0.532s (gravity "
             "is then 9.81 m/s2), or add --gravity.",
             given.at("preset"), given_units(given)));
-    if (!given.contains("contact_duration")) {
-        RunConfig preset;
-        read_preset(given.at("preset"), {}, preset);
-        config.contact_duration = preset.contact_duration * (config.period / preset.period);
-    }
+    RunConfig preset;
+    read_preset(given.at("preset"), {}, preset);
+    for (const Parameter& p : run_parameters)
+        if (p.in_preset == InPreset::duration && !given.contains(p.name))
+            config.*p.number() = preset.*p.number() * (config.period / preset.period);
 }
 
 /// Lengths of a preset are multiples of r.
 void scale_preset_lengths(const ParameterTexts& given, RunConfig& config) {
     if (!given.contains("preset")) return;
-    if (!given.contains("container_radius")) config.container_radius *= config.radius;
-    if (!given.contains("amplitude") && config.path != PathShape::points)
-        config.amplitude *= config.radius;
+    for (const Parameter& p : run_parameters) {
+        if (p.in_preset != InPreset::length || given.contains(p.name)) continue;
+        const bool is_of_given_path =
+            p.number() == &RunConfig::amplitude && config.path == PathShape::points;
+        if (!is_of_given_path) config.*p.number() *= config.radius;
+    }
 }
 
 }  // namespace
@@ -298,9 +302,8 @@ void scale_preset_lengths(const ParameterTexts& given, RunConfig& config) {
 void RunConfig::remove_floor() {
     const RunConfig defaults;
     floor = false;
-    floor_friction = defaults.floor_friction;
-    gravity = defaults.gravity;
-    rolling_resistance = defaults.rolling_resistance;
+    for (const Parameter& p : run_parameters)
+        if (needs_floor(p.applies_to)) this->*p.number() = defaults.*p.number();
 }
 
 void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) {
@@ -487,15 +490,16 @@ std::string default_of(const Parameter& p) {
 /// one of them is an error in any case.
 static void reject_parameters_without_floor(const ParameterTexts& texts, const RunConfig& config) {
     if (config.floor) return;
-    for (const char* name : {"floor_friction", "gravity", "rolling_resistance"}) {
-        if (config.ramp_of(name))
+    for (const Parameter& p : run_parameters) {
+        if (!needs_floor(p.applies_to)) continue;
+        if (config.ramp_of(p.name))
             throw_usage_error(fmt::format(
-                "--ramp changes {}, but there is no floor.\nhint: add --floor sliding.", name));
+                "--ramp changes {}, but there is no floor.\nhint: add --floor sliding.", p.name));
         if (texts.contains("floor")) continue;
-        if (const auto found = texts.find(name); found != texts.end())
+        if (const auto found = texts.find(p.name); found != texts.end())
             throw_usage_error(
                 fmt::format("{} is {}, but there is no floor.\nhint: add --floor sliding.",
-                            option_name(name), found->second));
+                            option_name(p.name), found->second));
     }
 }
 
@@ -546,10 +550,8 @@ RunConfig with_discs(const RunConfig& config, std::int64_t discs) {
 ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_line) {
     // A preset replaces all parameters that it sets, and those that follow from them.
     if (command_line.contains("preset"))
-        for (const char* name : {"body", "inertia", "radius", "floor", "floor_friction", "gravity",
-                                 "mu", "mu_disc", "mu_wall", "restitution", "contact_duration",
-                                 "container_radius", "amplitude", "period", "speed"})
-            file.erase(name);
+        for (const Parameter& p : run_parameters)
+            if (p.in_preset != InPreset::unchanged) file.erase(p.name);
     // A ramp replaces the file's values of its parameters.
     if (const auto ramp = command_line.find("ramp"); ramp != command_line.end())
         for (const std::string& name : parameters_set_by_ramps(ramp->second)) file.erase(name);

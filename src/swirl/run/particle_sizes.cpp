@@ -12,6 +12,7 @@
 #include "swirl/math/random.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_readers.hpp"
 
 namespace swirl {
 namespace {

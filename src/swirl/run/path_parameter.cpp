@@ -10,6 +10,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_readers.hpp"
 
 namespace swirl {
 namespace {

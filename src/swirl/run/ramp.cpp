@@ -7,6 +7,7 @@
 
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_readers.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {
@@ -161,7 +162,7 @@ std::string ramps_text(const std::vector<Ramp>& ramps) {
 std::vector<std::string> ramp_parameter_names() {
     std::vector<std::string> names;
     for (const Parameter& p : run_parameters)
-        if (p.can_ramp) names.emplace_back(p.name);
+        if (p.can_ramp()) names.emplace_back(p.name);
     return names;
 }
 

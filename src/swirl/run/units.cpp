@@ -10,6 +10,7 @@
 #include "swirl/physics/container_path.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/parameter_readers.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {

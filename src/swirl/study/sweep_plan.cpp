@@ -303,8 +303,8 @@ std::vector<std::string> list_of_values(std::string_view name, std::string_view 
         if (part.empty())
             throw UsageError(fmt::format("{} is '{}', but a value in the list is empty.",
                                          option_name(name), text));
-        const bool has_colons = name == "mixture" || name == "path" || name == "sizes" ||
-                                name == "ramp" || name == "initial";
+        const Parameter* const row = find_parameter(name);
+        const bool has_colons = row && row->has_colons;
         if (part.find(':') != part.npos && !has_colons) {
             const auto more = range(name, part);
             values.insert(values.end(), more.begin(), more.end());

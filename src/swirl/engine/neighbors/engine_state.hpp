@@ -125,8 +125,8 @@ struct EngineState {
     bool (*is_stopped)(const void* caller);
     const void* caller;
 
-    // Only the loops of DiscsWithPartialFriction (resolve.hpp) use it.
-    Frictionless frictionless;
+    // Only the loops of a law of your own (own_law.hpp) use it.
+    const void* law;
 
     SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
@@ -169,7 +169,8 @@ struct EventLoop {
 inline constexpr std::uint32_t max_discs_in_columns = 40, max_spheres_in_columns = 64;
 
 /// The event loops of all searches for one vector width. The loops of searches that store particles
-/// in columns are compiled for several sizes.
+/// in columns are compiled for several sizes. Without the other loops, `lists` run all discs and
+/// `many_spheres` all spheres.
 struct EventLoops {
     EventLoop lists, cells;
     EventLoop all_pairs[max_discs_in_columns / 8];  // one for up to 8, 16, 24 … discs
@@ -179,11 +180,6 @@ struct EventLoops {
     EventLoop many_spheres;
 };
 
-/// For discs that lack friction in some contacts with each other; baseline width only.
-extern const EventLoops event_loops_partial_friction;
-constexpr bool is_partial(Frictionless where) {
-    return where == Frictionless::boundary || where == Frictionless::bulk;
-}
 extern const EventLoops event_loops_baseline;
 extern const EventLoops event_loops_avx2;
 extern const EventLoops event_loops_avx512;

@@ -48,7 +48,8 @@ SWIRL_INLINE bool lists_do_not_last(const ListsOrCellsState& state) {
 /// over and did not last, the limit is multiplied by `caution`, three times at most.
 inline constexpr double max_travel = 0.2, caution = 0.7;
 inline constexpr std::uint32_t max_failures_counted = 3;
-static bool lists_would_last(const ListsOrCellsState& state, double cell_width, double t) {
+[[maybe_unused]] static bool lists_would_last(const ListsOrCellsState& state, double cell_width,
+                                              double t) {
     double limit = max_travel * state.smallest_radius * collisions_since_test(state);
     for (std::uint32_t k = 0; k < state.failed_lists; ++k) limit *= caution;
     const double travelled = cell_width * rebuilds_since_test(state);

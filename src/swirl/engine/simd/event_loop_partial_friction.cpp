@@ -1,6 +1,13 @@
-#include "swirl/engine/simd/event_loops.hpp"
-#include "swirl/math/cpu_width.hpp"
+#include "swirl/physics/partial_friction.hpp"
+
+#include "swirl/engine/own_law.hpp"
+#include "swirl/engine/partial_friction.hpp"
 
 namespace swirl {
-const EventLoops event_loops_partial_friction = event_loops_with_partial_friction(baseline_name);
+
+OwnLaw without_friction_in(Frictionless contacts) {
+    if (contacts != Frictionless::boundary && contacts != Frictionless::bulk) return {};
+    return own_law(PartialFriction{contacts});
+}
+
 }  // namespace swirl

@@ -41,23 +41,5 @@ constexpr EventLoops event_loops(const char* width) {
 #endif
 }
 
-/// The search for discs that lack friction in some contacts with each other.
-template <NeighborSearch Search>
-struct WithPartialFriction : Search {
-    using Bodies = DiscsWithPartialFriction;
-};
-
-/// Few runs need these loops, so one size of all pairs serves all. There are none for spheres.
-constexpr EventLoops event_loops_with_partial_friction(const char* width) {
-    const EventLoop all_pairs =
-        event_loop<WithPartialFriction<AllPairs<max_discs_in_columns / 8>>>(width);
-    return {event_loop<WithPartialFriction<VerletLists>>(width),
-            event_loop<WithPartialFriction<LinkedCells>>(width),
-            {all_pairs, all_pairs, all_pairs, all_pairs, all_pairs},
-            max_discs_in_columns,
-            {},
-            {}};
-}
-
 }  // namespace SWIRL_TARGET
 }  // namespace swirl
