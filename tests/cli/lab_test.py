@@ -23,14 +23,17 @@ from program import (
     HANG,
     SOURCE,
     ProgramTest,
+    all_scenes,
     made_of_the_web,
     main,
+    options,
     read_bytes,
     read_json,
     read_rows,
     read_text,
     slow,
     swirl,
+    text_of,
     write_text,
 )
 
@@ -40,23 +43,8 @@ CHROMIUM = shutil.which("chromium")
 # The scripts in a browser take a minute each, so the default suite omits what they list.
 COMPLETE = ["--all"] if ALL else []
 
-# As in the page's address.
-SCENES = [
-    {"discs": 1},
-    {"discs": 5, "mu": 0.1},
-    {"discs": 28},
-    {"discs": 48},
-    {"discs": 50, "seed": 2},
-    {"discs": 48, "mu_disc": 0, "mu_wall": 1},
-    {"discs": 28, "path": "circle"},
-    {"discs": 40, "mixture": "20:0.6"},
-    {"discs": 48, "restitution": 0.9},
-    {"discs": 28, "inertia": "solid", "tangential_restitution": 0.5},
-    {"discs": 300, "radius": 0.3, "sides": 7},
-    {"discs": 48, "amplitude": 3, "container_radius": 9},
-    {"discs": 20, "preset": "experiment"},
-    {"discs": 28, "body": "sphere", "mu": 0.3},
-]
+# The tests give the warm-up themselves.
+SCENES = [scene for scene in all_scenes() if "warmup" not in scene]
 EVENTS = 20000
 # Keys of a result that the page omits: the program's build, its command line and its duration.
 ONLY_COMMAND_LINE = {
@@ -127,14 +115,6 @@ engineOf(process.argv[1]).then(async (make) => {
 """
 
 
-def options(scene):
-    return [
-        word
-        for name, value in scene.items()
-        for word in (f"--{name.replace('_', '-')}", str(value))
-    ]
-
-
 def pixels_of(path):
     """The rows of a PNG of eight bits a channel that is not interlaced, each a list of pixels.
     Raises an error if the file or a checksum is not valid."""
@@ -184,12 +164,12 @@ class Laboratory(ProgramTest):
         self.node.stdin.flush()
         return json.loads(self.node.stdout.readline())
 
-    def test_fourteen_scenes_match_the_command_line_exactly(self):
+    def test_all_scenes_match_the_command_line_exactly(self):
         said = self.engine(
             [
                 {
                     "given": {
-                        **{k: str(v) for k, v in scene.items()},
+                        **{k: text_of(v) for k, v in scene.items()},
                         "warmup": "0",
                         "measure": "slip",
                     },

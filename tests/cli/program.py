@@ -24,6 +24,26 @@ HANG = 3000
 ALL = "--all" in sys.argv
 
 
+def all_scenes():
+    """The scenes of tests/scenes.json: names and values of parameters."""
+    with open(os.path.join(SOURCE, "tests", "scenes.json"), encoding="utf-8") as file:
+        return json.load(file)
+
+
+def text_of(value):
+    """The text of a parameter; a list is one value with colons."""
+    return ":".join(map(str, value)) if isinstance(value, list) else str(value)
+
+
+def options(scene):
+    """The options of the command line for a scene."""
+    return [
+        word
+        for name, value in scene.items()
+        for word in (f"--{name.replace('_', '-')}", text_of(value))
+    ]
+
+
 def slow(reason):
     """Decorator: the test belongs to the suite `slow`, for this reason."""
     return unittest.skipUnless(ALL, "in the suite slow: " + reason)

@@ -4,7 +4,7 @@ import json
 import os
 import unittest
 
-from program import InFolder, swirl
+from program import InFolder, all_scenes, options, swirl
 
 FLAGS = {"sse2": "sse2", "avx2": "avx2", "avx512": "avx512f"}
 
@@ -30,20 +30,22 @@ class Simd(InFolder):
     def test_every_width_gives_the_same_result(self):
         # Five discs use scalar code, 48 all pairs, 300 lists and averages over groups of eight with
         # a remainder. Spheres on a floor are accelerated.
-        scenes = (
-            ("--discs", 5),
-            ("--discs", 48, "--measure", "slip,energy"),
-            ("--discs", 300, "--container-radius", 21.3),
-            ("--discs", 20, "--path", "circle"),
-            ("--preset", "experiment", "--discs", 21),
-            ("--preset", "experiment", "--discs", 130, "--container-radius", 15),
-        )
+        scenes = [scene for scene in all_scenes() if "warmup" not in scene]
         self.assertGreaterEqual(len(widths()), 1)
         for scene in scenes:
             with self.subTest(scene=scene):
                 results = []
                 for width in widths():
-                    result = self.result(width, *scene, "--periods", 6, "--warmup", 1)
+                    result = self.result(
+                        width,
+                        *options(scene),
+                        "--periods",
+                        6,
+                        "--warmup",
+                        1,
+                        "--measure",
+                        "slip,energy",
+                    )
                     self.assertEqual(result.pop("simd"), width)
                     self.assertGreater(result["rotation"]["mean_by_event"]["blocks"], 0)
                     results.append(result)
