@@ -178,6 +178,8 @@ double difference(const Container& container, const Simulation& simulation, doub
 }
 
 void expect_time_steps_converge_to_events(const InitialState& scene) {
+    if (sanitized)
+        GTEST_SKIP() << "the engine has ten events here, the time steps of this file millions";
     constexpr double end = 5.0;
     Simulation simulation(scene);
     simulation.advance_to(0, end);

@@ -198,6 +198,7 @@ Difference compare(const std::vector<Measured>& seeds, const Quantity& q, Holds 
 
 struct Study {
     int discs, periods, seeds;
+    int highest_rate = samples_per_period;
     /// A difference of this many standard errors is none of chance: Student's t for so few seeds,
     /// and all rows and rates.
     double chance;
@@ -231,7 +232,8 @@ bool is_missing(const std::vector<Measured>& seeds, const Quantity& q, Holds hol
 
 void expect_the_numbers_of_the_run(const Study& study) {
     SCOPED_TRACE(testing::Message() << study.discs << " discs");
-    const std::vector<int> rates = rates_of_the_registry();
+    std::vector<int> rates = rates_of_the_registry();
+    std::erase_if(rates, [&](int rate) { return rate > study.highest_rate; });
     const std::vector<Measured> seeds = seeds_of(study, rates);
     std::set<const Quantity*> compared;
     for (const Holds holds : {Holds::velocities, Holds::positions})
@@ -253,9 +255,11 @@ void expect_the_numbers_of_the_run(const Study& study) {
     EXPECT_GT(compared.size(), 60u);
 }
 
-// 12 discs for the default tests: some numbers are more biased with few, others with many.
+// 12 discs for the default tests: some numbers are more biased with few, others with many. Few rows
+// need more than 64 frames per period, and those frames would take most of the time.
 TEST(FrameRates, AtTheMinimumOfARowHaveTheNumberOfTheRun) {
-    expect_the_numbers_of_the_run({.discs = 12, .periods = 20, .seeds = 6, .chance = 8.0});
+    expect_the_numbers_of_the_run(
+        {.discs = 12, .periods = 20, .seeds = 6, .highest_rate = 64, .chance = 8.0});
 }
 
 TEST(FrameRates, Slow_AtTheMinimumOfARowHaveTheNumberOfTheRun) {

@@ -148,9 +148,9 @@ void expect_mutations_are_harmless(Shape body, std::uint64_t first, std::uint64_
     ::testing::Test::RecordProperty("rejected", int(outcomes[rejected]));
 }
 
-TEST(HostileState, OfDiscsIsRejectedOrRuns) { expect_mutations_are_harmless(Shape::disc, 1, 300); }
+TEST(HostileState, OfDiscsIsRejectedOrRuns) { expect_mutations_are_harmless(Shape::disc, 1, 80); }
 TEST(HostileState, OfSpheresIsRejectedOrRuns) {
-    expect_mutations_are_harmless(Shape::sphere, 1, 150);
+    expect_mutations_are_harmless(Shape::sphere, 1, 80);
 }
 TEST(HostileState, Slow_OfDiscsIsRejectedOrRuns) {
     expect_mutations_are_harmless(Shape::disc, 1'000, 8'000);

@@ -143,7 +143,7 @@ def moved(s, radii, rng):
     spin = numpy.zeros(n)
     rotations = []
     sums = radii[:, None] + radii[None, :]
-    warm = int(2.5 * s["frames_per_period"])
+    warm = int(s["frames_per_period"])
     for frame in range(-warm, s["frames"]):
         if frame >= 0:
             positions.append(p.copy())

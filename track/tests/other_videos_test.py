@@ -87,6 +87,7 @@ class OtherVideos(InFolder):
         camera, _ = self.check_tracks(0.25, texture="none")
         self.assertEqual(camera["lens"]["distortion"], 0.0)
 
+    @slow("dark and bright discs are in track_test.py too")
     def test_spheres_of_both_brightnesses_are_tracked(self):
         # Light from one side shifts dark and bright spheres in opposite directions: 1.1 pixels; the
         # limit is a tenth of the radius.
@@ -109,7 +110,7 @@ class OtherVideos(InFolder):
                 ("duplicated", {"double": (20, 41, 60)}),
                 ("duplicated", {"double": tuple(range(84)), "fps": "60"}),
             ),
-            2,
+            1,
         ):
             _, done = self.call(**faults)
             self.assertEqual(done.returncode, 1, done.stdout)
