@@ -190,7 +190,9 @@ class Bench(unittest.TestCase):
                 self.assertEqual(done.stdout, "")
 
     def test_unwritable_file_is_an_error(self):
-        done = bench("--seconds", "0.001", "--quiet", "--json", "/no/such/b.json")
+        done = bench(
+            "--seconds", "0.001", "--only", "48 discs", "--quiet", "--json", "/no/such/b.json"
+        )
         self.assertEqual(done.returncode, 1)
         self.assertIn("/no/such", done.stderr)
 

@@ -197,9 +197,7 @@ TEST(Quartic, ReferenceHasFiftyDigits) {
     EXPECT_EQ(double(third * third - 1.0 - Wide(0x1p-99) - Wide(3.0 * 0x1p-200)), 0x1p-299);
 }
 TEST(Quartic, FirstFallAgreesWithHighPrecision) { expect_first_falls(3000, 1); }
-TEST(Quartic, Slow_FirstFallAgreesWithHighPrecisionInMillionsOfCases) {
-    expect_first_falls(500000, 2);
-}
+TEST(Quartic, Slow_FirstFallAgreesWithHighPrecisionInManyCases) { expect_first_falls(100000, 2); }
 
 // (τ − 1)(τ − 2)(τ − 3)(τ − 4) is negative between 1 and 2 and between 3 and 4.
 TEST(Quartic, FirstFallIsTheFirstOfFourRoots) {

@@ -79,7 +79,7 @@ enum class InPreset {
 
 /// When a parameter may change with the same particles.
 enum class Changes {
-    never,      // another value is another run
+    new_run,    // another value is another run
     on_page,    // the browser page can change it while it runs
     in_periods  // ramps and sweeps with --chain can change it, too
 };
@@ -136,7 +136,7 @@ struct Parameter {
     WrittenIf written = WrittenIf::always;
     AppliesTo applies_to = AppliesTo::every_run;
     InPreset in_preset = InPreset::unchanged;
-    Changes changes = Changes::never;
+    Changes changes = Changes::new_run;
     bool has_colons = false;  // its values may have colons, so a:b is no range
     bool is_derived = false;  // written, but not read back: it follows from others
     /// If this parameter is given on the command line, the file's values of these are ignored.
