@@ -37,7 +37,8 @@ if(NOT SWIRL_PROGRAM)
 endif()
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS swirl)
-install(DIRECTORY paper DESTINATION ${CMAKE_INSTALL_DATADIR}/swirl FILES_MATCHING PATTERN *.py PATTERN *.j2)
+install(DIRECTORY paper DESTINATION ${CMAKE_INSTALL_DATADIR}/swirl FILES_MATCHING
+  PATTERN *.py PATTERN *.j2 PATTERN tests EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
@@ -49,7 +50,7 @@ if(SKBUILD)
   install(TARGETS swirl_python swirl_shared LIBRARY DESTINATION swirl COMPONENT wheel)
   install(TARGETS swirl RUNTIME DESTINATION swirl/_program/bin COMPONENT wheel)
   install(DIRECTORY paper DESTINATION swirl/_program/share/swirl COMPONENT wheel
-          FILES_MATCHING PATTERN *.py PATTERN *.j2)
+          FILES_MATCHING PATTERN *.py PATTERN *.j2 PATTERN tests EXCLUDE)
 elseif(TARGET swirl_python)
   # `cmake --install BUILD --component python` installs the module for the system's Python.
   install(TARGETS swirl_python LIBRARY DESTINATION lib/python3/dist-packages/swirl

@@ -1,21 +1,31 @@
-"""`swirl paper` passes its call as JSON (command.py)."""
+"""Runs the function main() of a module of this package:
 
-import json
+    /usr/bin/python3 paper draw out/figure_5b.csv
+
+The program calls the modules in the same way (src/swirl/run/python_script.hpp).
+"""
+
+import importlib
 import os
 import sys
 
+FOLDER = os.path.dirname(os.path.abspath(__file__))
+# Python looks for modules in this folder first, but they belong to a package.
+others = [path for path in sys.path if os.path.abspath(path) != FOLDER]
+sys.path[:] = [os.path.dirname(FOLDER), *others]
+
+from paper import console, optional_file  # noqa: E402
+
 
 def main():
-    call = json.loads(sys.argv[1])
-    if call.get("module"):
-        sys.path.insert(0, call["module"])
-    sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    import command
-    import console
-
-    console.stop_on_signals()
+    name = sys.argv[1] if len(sys.argv) > 1 else ""
+    if not name.isidentifier() or not optional_file.exists(os.path.join(FOLDER, f"{name}.py")):
+        return console.report(
+            console.Problem(f"usage: {__doc__[__doc__.index('/usr'):].split(chr(10))[0]}", 2)
+        )
+    sys.argv[:2] = [f"{sys.argv[0]} {name}"]
     try:
-        return command.main(call)
+        return importlib.import_module(f"paper.{name}").main()
     except console.Problem as problem:
         return console.report(problem)
     except KeyboardInterrupt:

@@ -1,8 +1,8 @@
 """Figures with measured quantities and the rotation against the number of particles, a curve for
 each setting."""
 
-from curves import at_both_ends, curve_tables, curves_by
-from runs import measured_point, points_of
+from paper.curves import at_both_ends, curve_tables, curves_by
+from paper.runs import measured_point, points_of
 
 
 def findings_of(points, frictions, words):

@@ -11,7 +11,7 @@ import re
 import secrets
 import sys
 
-import optional_file
+from paper import optional_file
 
 _left = (
     {}

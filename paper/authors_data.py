@@ -1,6 +1,6 @@
 """Compares this program with the numbers that the authors of the paper published.
 
-    ./swirl python paper/authors_data.py AUTHORS OUT
+    ./swirl python paper authors_data AUTHORS OUT
 
 AUTHORS is a clone of github.com/jpryan1/rotation-sim, by the paper's second author, or a folder of
 the same files under the other names of FILES. The repository has no licence file, so its files are
@@ -25,11 +25,9 @@ from concurrent.futures import ProcessPoolExecutor
 import numpy as np
 import swirl
 
-import atomic_file
-import optional_file
-import style
-from coarse_zero import crossing_of_curve
-from paper_parameters import CONTAINER_RADIUS as R, LAST_N, OMEGA
+from paper import atomic_file, optional_file, style
+from paper.coarse_zero import crossing_of_curve
+from paper.paper_parameters import CONTAINER_RADIUS as R, LAST_N, OMEGA
 
 SEEDS, EVENTS, BLOCKS = 3, 10**6, 10
 EVERY = 32  # events from one sample of the maps to the next
@@ -406,7 +404,3 @@ def main():
     atomic_file.write_or_exit(os.path.join(out, "authors_data.csv"), text.getvalue())
     report(rows, maps)
     draw(out, rows, maps)
-
-
-if __name__ == "__main__":
-    main()

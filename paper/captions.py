@@ -3,7 +3,7 @@ come from the findings of the figure, which are computed from its table."""
 
 import re
 
-import point_names
+from paper import point_names
 
 CONTRADICTIONS = [
     (

@@ -8,7 +8,7 @@ import os
 import re
 import sys
 
-from console import Problem
+from paper.console import Problem
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 # The first words of each figure in its file, which can be listed without importing it.
@@ -83,10 +83,12 @@ def loaded(name, group, description, module):
     fails alone."""
     try:
         return next(
-            figure for figure in importlib.import_module(module).FIGURES if figure.name == name
+            figure
+            for figure in importlib.import_module(f"paper.{module}").FIGURES
+            if figure.name == name
         )
     except Exception as error:
-        from figure import Figure
+        from paper.figure import Figure
 
         def fail(*_, error=error):
             raise error
@@ -107,7 +109,3 @@ def main():
     print("\nFigures:")
     for name, _, description, _ in entries():
         print(f"  {name:<19} {description}")
-
-
-if __name__ == "__main__":
-    main()

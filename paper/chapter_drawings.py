@@ -3,9 +3,8 @@ the changes of direction."""
 
 import numpy as np
 
-import style
-import tables
-from curves import CERTAIN
+from paper import style, tables
+from paper.curves import CERTAIN
 
 PACKING = r"packing fraction $\varphi = N r^2/R^2$"
 CHANGES = (

@@ -2,9 +2,9 @@
 docs/results/paper.md, the page docs/results/claims.md, and docs/data/claims.csv with every number
 that was found.
 
-    /usr/bin/python3 paper/claims_page.py out docs/results/paper.md
-    /usr/bin/python3 paper/claims_page.py out docs/results/paper.md 13 16
-    /usr/bin/python3 paper/claims_page.py - docs/results/paper.md
+    /usr/bin/python3 paper claims_page out docs/results/paper.md
+    /usr/bin/python3 paper claims_page out docs/results/paper.md 13 16
+    /usr/bin/python3 paper claims_page - docs/results/paper.md
 
 The second call writes these claims only, if out has no other tables. The third one writes both
 pages again, from claims.csv alone.
@@ -16,10 +16,10 @@ import os
 import re
 import sys
 
-import atomic_file
-from claims import CLAIMS, QUOTES
-from claims.wording import headline
-from report import ORDER, judge
+from paper import atomic_file
+from paper.claims import CLAIMS, QUOTES
+from paper.claims.wording import headline
+from paper.report import ORDER, judge
 
 COLUMNS = (
     "claim",
@@ -152,7 +152,3 @@ def main():
     atomic_file.write_or_exit(page, written(text, rows))
     atomic_file.write_or_exit(os.path.join(os.path.dirname(page), "claims.md"), page_of(rows))
     atomic_file.write_or_exit(file, csv_of(rows))
-
-
-if __name__ == "__main__":
-    main()

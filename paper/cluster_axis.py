@@ -13,7 +13,7 @@ and mass 1; a step uses the axis at its start, and the centre of mass by linear 
 import math
 
 import numpy as np
-from engine import swirl
+from paper.engine import swirl
 
 STEPS = 100  # in a period, on average
 STATE = ("elongation", "rotation")

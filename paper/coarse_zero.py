@@ -23,9 +23,9 @@ import math
 
 import scipy.optimize
 
-from combine import at, number
-from curves import with_error
-from engine import swirl
+from paper.combine import at, number
+from paper.curves import with_error
+from paper.engine import swirl
 
 
 def rise_through(x, y, level):

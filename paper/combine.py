@@ -13,7 +13,7 @@ in units of the runs' own errors.
 import math
 
 import numpy as np
-from engine import swirl
+from paper.engine import swirl
 
 RATES = ("mean_by_event", "mean_by_time", "rigid_by_event", "rigid_by_time")
 COUNTS = (

@@ -1,18 +1,17 @@
 """`swirl paper`: makes figures, movies and the report. The program checks the options and passes
 the call as JSON:
 
-    /usr/bin/python3 paper '{"figures": ["5b"], "out": "out", "module": "build/release/python"}'
+    /usr/bin/python3 paper command '{"figures": ["5b"], "out": "out", "module": "build/release/python"}'
 """
 
 import json
 import multiprocessing
 import os
+import sys
 import time
 
-import atomic_file
-import catalogue
-import study
-from console import INTERRUPTED, Problem, Progress, duration
+from paper import atomic_file, catalogue, study
+from paper.console import INTERRUPTED, Problem, Progress, duration, stop_on_signals
 
 SETTINGS = ("quick", "events", "out", "seed", "first_seeds", "threads")
 
@@ -22,7 +21,7 @@ def draw(job):
     name, table = job
     try:
         catalogue.named([name])[0].draw(table)
-        import style
+        from paper import style
 
         style.plt.close("all")  # this process draws several figures
     except ModuleNotFoundError as missing:
@@ -40,7 +39,7 @@ def draw(job):
 def add_seeds_to_undecided(settings, plans):
     """Doubles the seeds of the points on which undecided claims rest. Returns (True if there are
     any, the number of those whose budget is used)."""
-    from claims import write_verdicts
+    from paper.claims import write_verdicts
 
     verdicts = write_verdicts(settings.out)
     seeds = {point.name: len(point.tasks) for plan in plans for point in plan}
@@ -130,7 +129,7 @@ class Paper:
 
     def report(self):
         """Writes paper.json and the report; returns the file that a reader opens."""
-        import report
+        from paper import report
 
         call, settings = self.call, self.settings
         figures = [
@@ -198,10 +197,10 @@ def make_part(paper, part, progress):
         raise Problem("; ".join([f"{counts['failed']} runs failed", *problems]) + ".")
 
 
-def main(call):
+def make(call):
     """Makes what the call asks for."""
     if call.get("movies"):
-        import movies
+        from paper import movies
 
         movies.make(call)
         if not call["figures"]:
@@ -235,3 +234,11 @@ def main(call):
         raise Problem(
             f"figures that could not be made: {', '.join(missing)}; the reasons are listed above."
         )
+
+
+def main():
+    stop_on_signals()
+    call = json.loads(sys.argv[1])
+    if call.get("module"):
+        sys.path.insert(0, call["module"])
+    make(call)

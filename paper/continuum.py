@@ -5,8 +5,8 @@
       swirl run --discs 497 --container-radius 34.4 --amplitude 7.568 --warmup 10 --periods 40 --seed $s \\
         --measure fields,wall --tables seed_$s
     done
-    ./swirl python paper/continuum.py seed_*/fields.m_frame_4.csv
-    ./swirl python paper/continuum.py --flow --amplitude 7.568 seed_*/fields.m_frame_4.csv
+    ./swirl python paper continuum seed_*/fields.m_frame_4.csv
+    ./swirl python paper continuum --flow --amplitude 7.568 seed_*/fields.m_frame_4.csv
 
 The tables must be of runs that differ only in their seeds. The relations of the fluid, and how they
 are fitted, are those of micropolar.py. The flow needs scikit-fem (pip install scikit-fem).
@@ -19,9 +19,9 @@ import sys
 
 import numpy as np
 
-from curves import CERTAIN, with_error
-from engine import swirl
-from micropolar import RELATIONS, fit, fit_relation
+from paper.curves import CERTAIN, with_error
+from paper.engine import swirl
+from paper.micropolar import RELATIONS, fit, fit_relation
 
 COEFFICIENTS = [relation for relation in RELATIONS if relation.name != "angle"]
 
@@ -460,7 +460,7 @@ def print_closure(arguments):
                 )
 
 
-def main(words):
+def main():
     parser = argparse.ArgumentParser(
         description="Fits a micropolar fluid to fields, one table for each seed."
     )
@@ -475,12 +475,8 @@ def main(words):
         "--amplitude", type=float, default=1.892, help="A of the run in radii [1.892]"
     )
     parser.add_argument("--period", type=float, default=11.866071, help="T of the run [11.866071]")
-    arguments = parser.parse_args(words)
+    arguments = parser.parse_args()
     try:
         print_flow(arguments) if arguments.flow else print_closure(arguments)
     except (OSError, ValueError, ImportError) as problem:
         sys.exit(f"error: {problem}")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])

@@ -3,8 +3,8 @@ table says by how much."""
 
 import os
 
-import tables
-from paper_parameters import AMPLITUDE, CONTAINER_RADIUS
+from paper import tables
+from paper.paper_parameters import AMPLITUDE, CONTAINER_RADIUS
 
 PAPER = CONTAINER_RADIUS, AMPLITUDE / CONTAINER_RADIUS  # R/r and A/R
 

@@ -1,6 +1,6 @@
 """N_c against a parameter, from the table of `swirl crossing --csv`, with its errors.
 
-    /usr/bin/python3 paper/crossing_table.py N_c.csv
+    /usr/bin/python3 paper crossing_table N_c.csv
 
 The parameter along x is the one with the most numbers; each combination of the others is a curve.
 An N_c that is known as an interval only is a bar without a symbol. Searches without N_c are named
@@ -10,8 +10,7 @@ below the figure.
 import sys
 
 import numpy as np
-import optional_file
-import style
+from paper import optional_file, style
 
 
 def parameters_of(rows):
@@ -102,7 +101,3 @@ def main():
     if others:
         style.legend(axes)
     style.save(drawing, table)
-
-
-if __name__ == "__main__":
-    main()

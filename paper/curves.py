@@ -5,9 +5,9 @@ import csv
 import io
 import math
 
-import atomic_file
-from combine import RATES, at, number, steadiness
-from engine import swirl
+from paper import atomic_file
+from paper.combine import RATES, at, number, steadiness
+from paper.engine import swirl
 
 RATE_WORDS = {
     "mean_by_event": "mean over the discs, by event",

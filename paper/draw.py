@@ -1,14 +1,13 @@
 """Draws a table of `swirl paper` again, to PNG and PDF next to it.
 
-    /usr/bin/python3 paper/draw.py out/figure_5b.csv
-    /usr/bin/python3 paper/draw.py out/figure_3a.csv 20      sliding slices of 20°, in steps of 5°
+    /usr/bin/python3 paper draw out/figure_5b.csv
+    /usr/bin/python3 paper draw out/figure_3a.csv 20      sliding slices of 20°, in steps of 5°
 """
 
 import os
 import sys
 
-import catalogue
-import optional_file
+from paper import catalogue, optional_file
 
 
 def main():
@@ -27,7 +26,3 @@ def main():
             "figure_5b.csv."
         )
     draw(table, *map(float, sys.argv[2:]))
-
-
-if __name__ == "__main__":
-    main()

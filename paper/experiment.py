@@ -1,17 +1,16 @@
 """The report of `swirl experiment` (report.html, one self-contained file) and its figures
 (figure_*.png and .pdf), from the tables and experiment.json in a folder.
 
-    /usr/bin/python3 paper/experiment.py marbles
+    /usr/bin/python3 paper experiment marbles
 """
 
 import os
 
 import numpy as np
-import optional_file
-import style
-from atomic_file import write_or_exit
-from claims.wording import known, number
-from html_page import described_folder, rendered
+from paper import optional_file, style
+from paper.atomic_file import write_or_exit
+from paper.claims.wording import known, number
+from paper.html_page import described_folder, rendered
 
 LOOK = {"rough": (style.RED, "o"), "smooth": (style.SKY, "D")}
 
@@ -353,13 +352,9 @@ def main():
     write_or_exit(
         os.path.join(folder, "report.html"),
         rendered(
-            "page.html.j2",
+            "report.html.j2",
             folder,
             title="Experiment and simulation",
             blocks=contents(folder, about, videos, figures),
         ),
     )
-
-
-if __name__ == "__main__":
-    main()

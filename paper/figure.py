@@ -5,7 +5,7 @@ import os
 from collections.abc import Callable
 from typing import Optional
 
-from curves import write_table
+from paper.curves import write_table
 
 
 @dataclasses.dataclass

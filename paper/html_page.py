@@ -9,7 +9,7 @@
                       "question", "caption", "findings", "remarks" and "command"
     claims            dictionaries (report.claim_row)
 
-The layout of HTML is page.html.j2, and that of Markdown page.md.j2.
+The layout of HTML is report.html.j2, and that of Markdown report.md.j2.
 """
 
 import base64

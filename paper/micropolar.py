@@ -29,8 +29,8 @@ import math
 
 import numpy as np
 
-from hard_discs import pressure_ratio
-from jackknife import jackknife
+from paper.hard_discs import pressure_ratio
+from paper.jackknife import jackknife
 
 
 # --- Relations ------------------------------------------------------------------------------------

@@ -6,12 +6,11 @@ from types import SimpleNamespace
 
 import numpy as np
 
-import atomic_file
-import optional_file
-from console import INTERRUPTED, Problem, Progress
-from engine import swirl
-from html_page import rendered
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper import atomic_file, optional_file
+from paper.console import INTERRUPTED, Problem, Progress
+from paper.engine import swirl
+from paper.html_page import rendered
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
 
 WARMUP = 20  # periods before the first frame
 SAMPLES = 64  # per period, of the rotation

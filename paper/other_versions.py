@@ -5,7 +5,7 @@ import os
 import re
 import sys
 
-import optional_file
+from paper import optional_file
 
 
 def keep(file, version):

@@ -1,6 +1,6 @@
 """A map of `swirl map`: a quantity over two parameters, or a curve over one.
 
-    /usr/bin/python3 paper/parameter_map.py map/map.csv
+    /usr/bin/python3 paper parameter_map map/map.csv
 """
 
 import argparse
@@ -8,10 +8,8 @@ import sys
 
 import numpy as np
 
-import optional_file
-import style
-import tables
-from style import plt
+from paper import optional_file, style, tables
+from paper.style import plt
 
 # The verdicts that have a marker, and its explanation below the figure.
 SIGNS = {
@@ -206,7 +204,3 @@ def main():
     lines_of_notes = ["; ".join(notes[k : k + 2]) for k in range(0, len(notes), 2)]
     style.note(drawing, "\n".join(lines_of_notes))
     style.save(drawing, given.table)
-
-
-if __name__ == "__main__":
-    main()

@@ -1,24 +1,23 @@
 """The report: report.md, and report.html (one self-contained file, with a layout for A4 when it is
 printed), from the files that `swirl paper` wrote to a folder.
 
-    /usr/bin/python3 paper/report.py out
+    /usr/bin/python3 paper report out
 """
 
 import json
 import os
 import sys
 
-import atomic_file
-import verdicts
-from captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
-from claims import all_judged
-from claims.claim import UNTESTED
-from claims.wording import headline
-from console import duration
-from first_page import main_results
-from html_page import described_folder, rendered, size_of
-from point_names import in_words
-from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
+from paper import atomic_file, verdicts
+from paper.captions import CONTRADICTIONS, by_section, figure_texts, image_of, question_of, title_of
+from paper.claims import all_judged
+from paper.claims.claim import UNTESTED
+from paper.claims.wording import headline
+from paper.console import duration
+from paper.summary import main_results
+from paper.html_page import described_folder, rendered, size_of
+from paper.point_names import in_words
+from paper.verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE
 
 ORDER = [HOLDS, IN_PART, FAILS, UNDECIDED, UNTESTABLE, UNTESTED, MISSING]
 MARK = {
@@ -261,7 +260,3 @@ def main():
         write_all(folder)
     except OSError as error:
         sys.exit(f"'{error.filename}' cannot be written: {error.strerror}.")
-
-
-if __name__ == "__main__":
-    main()

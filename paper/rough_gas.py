@@ -47,7 +47,7 @@ import numpy as np
 import scipy.integrate
 import scipy.linalg
 
-from hard_discs import contact_correlation, pressure_ratio
+from paper.hard_discs import contact_correlation, pressure_ratio
 
 FRACTION = 0.2  # φ = N r²/R²
 

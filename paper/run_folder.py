@@ -7,10 +7,8 @@ import json
 import os
 import time
 
-import atomic_file
-import optional_file
-import other_versions
-from engine import swirl
+from paper import atomic_file, optional_file, other_versions
+from paper.engine import swirl
 
 
 def folder_of(out, measure):

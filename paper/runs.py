@@ -3,8 +3,8 @@ the paper's parameters. Several figures need the same point; it is run once."""
 
 import dataclasses
 
-from paper_parameters import COUNTERROTATING_N, EXPERIMENT_N, LAST_N, ROTATING_N
-from study import Point, events_per_period
+from paper.paper_parameters import COUNTERROTATING_N, EXPERIMENT_N, LAST_N, ROTATING_N
+from paper.study import Point, events_per_period
 
 
 @dataclasses.dataclass(frozen=True)

@@ -2,10 +2,10 @@
 
 import math
 
-from combine import number
-from curves import crossing_cells
-from engine import swirl
-from study import DEFAULT_EVENTS, Point
+from paper.combine import number
+from paper.curves import crossing_cells
+from paper.engine import swirl
+from paper.study import DEFAULT_EVENTS, Point
 
 PARTS = ("N_c", "N_c_error", "N_c_lower", "N_c_upper")
 

@@ -1,6 +1,6 @@
 """How much the predictions for the experiment depend on what the paper does not state.
 
-    ./swirl python paper/sensitivity.py OUT
+    ./swirl python paper sensitivity OUT
 
 Each scenario changes one assumption of `--preset experiment`, and fits one friction coefficient of
 all contacts again, so that smooth spheres change their direction at N = 36. All other numbers are
@@ -22,10 +22,10 @@ import sys
 
 import swirl
 
-import atomic_file
-from coarse_zero import changes_of_sign, crossing_of_curve
-from curves import with_error
-from paper_parameters import SMOOTH_CHANGE_N
+from paper import atomic_file
+from paper.coarse_zero import changes_of_sign, crossing_of_curve
+from paper.curves import with_error
+from paper.paper_parameters import SMOOTH_CHANGE_N
 
 R_MM = 3.0
 LENGTH = {"periods": 110, "warmup": 30}
@@ -172,7 +172,3 @@ def main():
     writer.writerows(rows)
     atomic_file.write_or_exit(os.path.join(out, "sensitivity.csv"), text.getvalue())
     report(rows)
-
-
-if __name__ == "__main__":
-    main()

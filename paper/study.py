@@ -15,13 +15,10 @@ import signal
 import threading
 import time
 
-import atomic_file
-import combine
-import other_versions
-import run_folder
-from combine import at, failed
-from console import Problem
-from engine import swirl
+from paper import atomic_file, combine, other_versions, run_folder
+from paper.combine import at, failed
+from paper.console import Problem
+from paper.engine import swirl
 
 DEFAULT_EVENTS = 1_000_000  # SI: "10^6 iterations"
 
@@ -102,6 +99,13 @@ class Point:
         return [task.result for task in self.tasks if not failed(task.result)]
 
 
+def stored_name(work):
+    """The name of a function `work` in the identity of its stored results. `work.stored_as` keeps
+    that of a module which has another name now."""
+    module = work.__module__.removeprefix("paper.")
+    return getattr(work, "stored_as", f"{module}.{work.__name__}")
+
+
 class Task:
     """One seed of a point: a run, or a call of `work`. Equal tasks have equal keys."""
 
@@ -110,7 +114,7 @@ class Task:
         self.figures = set()  # that need it
         self.result, self.seconds = None, 0.0
         if work:
-            self.identity = repr((sorted(parameters.items()), f"{work.__module__}.{work.__name__}"))
+            self.identity = repr((sorted(parameters.items()), stored_name(work)))
             self.key = f"{name}_seed{parameters['seed']}_{swirl.checksum(self.identity)[:8]}"
         else:
             self.key = swirl.run_identity(**parameters)

@@ -10,10 +10,9 @@ import sys
 
 import numpy as np
 
-import atomic_file
-import tables
-from paper_parameters import AMPLITUDE
-from tables import column, distinct, select  # noqa: F401
+from paper import atomic_file, tables
+from paper.paper_parameters import AMPLITUDE
+from paper.tables import column, distinct, select  # noqa: F401
 
 try:
     import matplotlib

@@ -1,6 +1,6 @@
 """A quantity of a sweep against one of its parameters, a curve for each combination of the others.
 
-    /usr/bin/python3 paper/sweep_table.py study/table.csv [QUANTITY] [--points my_points.csv]
+    /usr/bin/python3 paper sweep_table study/table.csv [QUANTITY] [--points my_points.csv]
 
 `swirl collect study --plot` writes the table and draws it. Points have the columns discs, rate and
 error. The parameter along x is the one with the most values. In a chain, rising and falling values
@@ -9,9 +9,7 @@ are separate curves.
 
 import sys
 
-import optional_file
-import style
-import tables
+from paper import optional_file, style, tables
 
 MAX_CURVES = 24
 
@@ -146,7 +144,3 @@ def main():
     if others or points_file:
         style.legend(axes)
     style.save(drawing, table)
-
-
-if __name__ == "__main__":
-    main()

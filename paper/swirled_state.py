@@ -18,7 +18,7 @@ cannot be separated near Ω.
 
 import numpy as np
 
-from engine import swirl
+from paper.engine import swirl
 
 PER_PERIOD = 60  # samples
 PERIODS_OF_A_PATH = 4

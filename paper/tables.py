@@ -3,7 +3,7 @@
 import csv
 import os
 
-import optional_file
+from paper import optional_file
 
 # The columns of the rotation rates.
 RATES = ("mean_by_time", "mean_by_event", "rigid_by_time", "rigid_by_event")

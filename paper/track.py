@@ -1,16 +1,16 @@
 """The report of one video (report.html, one self-contained file) and figure_found.png and .pdf,
 from the files that `swirl track --report` wrote to a folder.
 
-    /usr/bin/python3 paper/track.py FOLDER
+    /usr/bin/python3 paper track FOLDER
 """
 
 import math
 import os
 
-import style
-from atomic_file import write_or_exit
-from claims.wording import number
-from html_page import described_folder, rendered
+from paper import style
+from paper.atomic_file import write_or_exit
+from paper.claims.wording import number
+from paper.html_page import described_folder, rendered
 
 FEWEST = 0.99  # fraction of the frames: a disc that is seen in fewer is doubtful
 
@@ -165,13 +165,9 @@ def main():
     write_or_exit(
         os.path.join(folder, "report.html"),
         rendered(
-            "page.html.j2",
+            "report.html.j2",
             folder,
             title=os.path.basename(found["video"]) or found["video"],
             blocks=contents(found, discs),
         ),
     )
-
-
-if __name__ == "__main__":
-    main()

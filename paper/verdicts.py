@@ -19,7 +19,7 @@ Seeds are added until a claim is decided, so a claim is tested repeatedly. An er
 already contains Student's factor for 95 % (replicates.hpp). The threshold multiplies this error, so
 it is stricter than an exact single test. That compensates for the repetition: with 8, 16 and 32
 seeds, a value that lies exactly on its bound is decided in at most 0.6 % of all cases, whatever the
-scatter between seeds (tests/cli/verdicts_test.py, FalseDecisions; docs/results/paper.md has the
+scatter between seeds (paper/tests/verdicts_test.py, FalseDecisions; docs/results/paper.md has the
 table).
 """
 
@@ -205,7 +205,7 @@ def every(judgements):
     return decided_by(FAILS, HOLDS, judgements)
 
 
-def either(judgements):
+def any_holds(judgements):
     """One statement that is true if it holds in any case."""
     return decided_by(HOLDS, FAILS, judgements)
 

@@ -27,6 +27,7 @@ SCRIPTS = {
     "cli": "swirl python_module",
     "track": "swirl",
     "python": "swirl python_module",
+    "paper": "swirl python_module",
     "faults": "swirl faults",
     "engine": "test_engine",
     "measure": "test_measure",
@@ -49,9 +50,8 @@ def tests():
                     ):
                         yield layer, f"{layer}.{suite}.{name}", f"test_{layer}"
     for label, targets in SCRIPTS.items():
-        for file in os.listdir(
-            os.path.join(SOURCE, "track/tests" if label == "track" else f"tests/{label}")
-        ):
+        folder = f"{label}/tests" if label in ("track", "paper") else f"tests/{label}"
+        for file in os.listdir(os.path.join(SOURCE, folder)):
             if file.endswith(".py"):
                 yield label, f"{label}.{file[:-3]}", targets
 

@@ -17,16 +17,16 @@ import math
 import numpy as np
 import scipy.stats
 
-import style
-from combine import at, means, number
-from crossing_law import law_rows
-from curves import CERTAIN, measured_cells, rows_of, with_error
-from engine import swirl
-from figure import Figure
-from jackknife import jackknife
-from runs import lengths, text
-from searches import search_cells, search_point
-from study import Point
+from paper import style
+from paper.combine import at, means, number
+from paper.crossing_law import law_rows
+from paper.curves import CERTAIN, measured_cells, rows_of, with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.jackknife import jackknife
+from paper.runs import lengths, text
+from paper.searches import search_cells, search_point
+from paper.study import Point
 
 BODIES = {"discs": {}, "spheres": {"preset": "experiment"}}
 SPINS = {"free": 0, "stopped": 1}

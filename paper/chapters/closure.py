@@ -1,11 +1,11 @@
 """The coefficients of a micropolar fluid (micropolar.py), and the share of the stresses that they
 explain, by packing fraction, in several dishes."""
 
-import style
-from chapters.fields import LEAST_POINTS, RANGES, WALL, dish_points, seeds_of
-from curves import CERTAIN
-from figure import Figure
-from micropolar import RELATIONS, fit_relation
+from paper import style
+from paper.chapters.fields import LEAST_POINTS, RANGES, WALL, dish_points, seeds_of
+from paper.curves import CERTAIN
+from paper.figure import Figure
+from paper.micropolar import RELATIONS, fit_relation
 
 PANELS = (
     ("rotational_viscosity", r"rotational viscosity $\Gamma$"),

@@ -10,16 +10,15 @@ divides the runs among the jobs of a cluster (docs/how-to/reproduce_paper.md).""
 import math
 
 import numpy as np
-import style
-import tables
-from chapters.lifetimes import state_cells, state_words, window_means
-from cluster_axis import axis_of
-from combine import means
-from curves import with_error
-from dishes import Dish, dish_run, period_of
-from engine import swirl
-from figure import Figure
-from study import Point
+from paper import style, tables
+from paper.chapters.lifetimes import state_cells, state_words, window_means
+from paper.cluster_axis import axis_of
+from paper.combine import means
+from paper.curves import with_error
+from paper.standard_runs import Dish, dish_run, period_of
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.study import Point
 
 FRACTION = 0.32
 WINDOW = 5  # periods

@@ -8,14 +8,13 @@ import dataclasses
 import math
 
 import numpy as np
-import style
-import tables
-from combine import means
-from curves import with_error
-from engine import swirl
-from figure import Figure
-from rough_gas import FRACTION, Case, collision_rate, radius_of
-from study import Point
+from paper import style, tables
+from paper.combine import means
+from paper.curves import with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.rough_gas import FRACTION, Case, collision_rate, radius_of
+from paper.study import Point
 
 QUANTITIES = ("translation", "spins", "time", "excess", "correlation")  # of a state of the gas
 # Collisions per disc without losses: to reach equilibrium, then to measure the collision rate.

@@ -11,13 +11,12 @@ without any criticality."""
 import math
 
 import numpy as np
-import style
-import tables
-from chapters.size import dishes_of_sizes
-from curves import CERTAIN, with_error
-from dishes import Dish, dish_points, dish_tables
-from figure import Figure
-from hard_discs import kinematic_viscosity, sound_speed
+from paper import style, tables
+from paper.chapters.size import dishes_of_sizes
+from paper.curves import CERTAIN, with_error
+from paper.standard_runs import Dish, dish_points, dish_tables
+from paper.figure import Figure
+from paper.hard_discs import kinematic_viscosity, sound_speed
 from scipy.stats import chi2
 from scipy.stats import t as student
 

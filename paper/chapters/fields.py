@@ -7,15 +7,15 @@ import math
 
 import numpy as np
 
-import style
-from combine import at, number
-from curves import with_error
-from dishes import Dish, dish_run
-from engine import result_of, swirl
-from figure import Figure
-from micropolar import RELATIONS, fit_relation
-from runs import length_of, lengths
-from study import Point
+from paper import style
+from paper.combine import at, number
+from paper.curves import with_error
+from paper.standard_runs import Dish, dish_run
+from paper.engine import result_of, swirl
+from paper.figure import Figure
+from paper.micropolar import RELATIONS, fit_relation
+from paper.runs import length_of, lengths
+from paper.study import Point
 
 AMPLITUDE = 0.22  # A/R, the paper's
 RANGES = [(0.2 + 0.1 * k, 0.2 + 0.1 * (k + 1)) for k in range(7)]  # of the packing fraction

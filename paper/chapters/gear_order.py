@@ -12,16 +12,16 @@ interpolated by straight lines; a curve without certain gear order above LEAST_O
 import math
 
 import numpy as np
-import style
-from chapters.mechanism import gears_points, mechanism_point, mechanism_run
-from coarse_zero import rise_through
-from combine import at, number
-from curves import CERTAIN, measured_cells, with_error
-from engine import swirl
-from figure import Figure
-from jackknife import jackknife
-from paper_parameters import AMPLITUDE, AMPLITUDES, CONTAINER_RADIUS, EXPERIMENT_DISH, LAST_N
-from runs import HALF, HIGH, LOW, ROUGH, SMOOTH, measured_point, points_of
+from paper import style
+from paper.chapters.mechanism import gears_points, mechanism_point, mechanism_run
+from paper.coarse_zero import rise_through
+from paper.combine import at, number
+from paper.curves import CERTAIN, measured_cells, with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.jackknife import jackknife
+from paper.paper_parameters import AMPLITUDE, AMPLITUDES, CONTAINER_RADIUS, EXPERIMENT_DISH, LAST_N
+from paper.runs import HALF, HIGH, LOW, ROUGH, SMOOTH, measured_point, points_of
 
 FRICTIONS = (LOW, HIGH, SMOOTH, ROUGH, HALF)
 LEFT = (0.75, 0.5, 0.25)  # q

@@ -1,13 +1,12 @@
 """Is there hysteresis? Ramps of a parameter through a change of direction and back."""
 
 import numpy as np
-import style
-import tables
-from curves import with_error
-from dishes import Dish, dish_run, period_of
-from engine import swirl
-from figure import Figure
-from study import Point
+from paper import style, tables
+from paper.curves import with_error
+from paper.standard_runs import Dish, dish_run, period_of
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.study import Point
 
 BINS = 8  # of the parameter, on each branch
 WARMUP = 30

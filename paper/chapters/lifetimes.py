@@ -4,11 +4,11 @@ mean spin."""
 import math
 
 import numpy as np
-import style
-from curves import with_error
-from engine import swirl
-from figure import Figure
-from study import Point
+from paper import style
+from paper.curves import with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.study import Point
 
 WINDOW = 20  # periods
 # Name, words, the two states, N, μ, threshold, periods. A window has the second state if its mean

@@ -1,12 +1,12 @@
 """Material: how the number N_c at which the direction changes depends on two properties of the
 discs."""
 
-import chapter_drawings
-from coarse_zero import last_zero
-from curves import Curve, highest_of, lowest_of, rows_of, with_error
-from figure import Figure
-from runs import HIGH, length_of, lengths, paper_run, text, with_periods
-from study import Point
+from paper import chapter_drawings
+from paper.coarse_zero import last_zero
+from paper.curves import Curve, highest_of, lowest_of, rows_of, with_error
+from paper.figure import Figure
+from paper.runs import HIGH, length_of, lengths, paper_run, text, with_periods
+from paper.study import Point
 
 # For each figure: the two parameters with their symbols and values, and the values of --quick.
 MAPS = {

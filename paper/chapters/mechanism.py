@@ -5,15 +5,14 @@ changes if one kind of contact has no friction."""
 import numpy as np
 import scipy.stats
 
-import style
-import tables
-from coarse_zero import last_zero, measured_curve, rise_through
-from combine import at, number
-from curves import curves_by, lowest_of, rows_of, with_error
-from figure import Figure
-from jackknife import jackknife
-from runs import Friction, length_of, lengths, paper_run, text, with_periods
-from study import Point
+from paper import style, tables
+from paper.coarse_zero import last_zero, measured_curve, rise_through
+from paper.combine import at, number
+from paper.curves import curves_by, lowest_of, rows_of, with_error
+from paper.figure import Figure
+from paper.jackknife import jackknife
+from paper.runs import Friction, length_of, lengths, paper_run, text, with_periods
+from paper.study import Point
 
 
 def mechanism_run(settings, discs, mu):

@@ -9,15 +9,14 @@ import math
 
 import numpy as np
 
-import style
-import tables
-from combine import means
-from curves import CERTAIN, listed
-from dishes import resolved
-from figure import Figure
-from runs import length_of, lengths
-from study import Point
-from swirled_state import RINGS_PER_RADIUS, swirled_run
+from paper import style, tables
+from paper.combine import means
+from paper.curves import CERTAIN, listed
+from paper.standard_runs import resolved
+from paper.figure import Figure
+from paper.runs import length_of, lengths
+from paper.study import Point
+from paper.swirled_state import RINGS_PER_RADIUS, swirled_run
 
 # Name, words, parameters.
 SETTINGS = (

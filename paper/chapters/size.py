@@ -2,9 +2,9 @@
 A/R of the swirl, in dishes of different sizes R/r. The paper has one dish, R/r = 8.6 and A/R =
 0.22. Where does the direction of rotation change, and in which state of the cluster?"""
 
-import chapter_drawings
-from dishes import Dish, dish_points, dish_tables
-from figure import Figure
+from paper import chapter_drawings
+from paper.standard_runs import Dish, dish_points, dish_tables
+from paper.figure import Figure
 
 RATIO_OF_THE_PAPER = 0.22  # SI: "A/R = 0.22"
 NEAR_THE_CHANGES = (0.1, 0.2, 0.25, 0.28, 0.3, 0.36, 0.4)

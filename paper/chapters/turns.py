@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-import style
-from combine import at
-from engine import swirl
-from figure import Figure
-from study import Point
+from paper import style
+from paper.combine import at
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.study import Point
 
 # Name in the table: title, words, parameters.
 CASES = {

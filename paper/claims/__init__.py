@@ -27,11 +27,11 @@ depends on them. A statement that no table decides is listed as "not tested", wi
 import json
 import os
 
-import atomic_file
+from paper import atomic_file
 
-from .catalogue import CLAIMS
-from .quotes import QUOTES  # noqa: F401
-from .study import Study
+from paper.claims.catalogue import CLAIMS
+from paper.claims.quotes import QUOTES  # noqa: F401
+from paper.claims.study import Study
 
 
 def all_judged(folder):

@@ -2,12 +2,12 @@
 judged, on what, and the points that it needs. Where the statement is a summary, the paper's
 sentence stands above it."""
 
-from paper_parameters import COUNTERROTATING_N, EVENTS, ROTATING_N
+from paper.paper_parameters import COUNTERROTATING_N, EVENTS, ROTATING_N
 
-from . import contacts, motion, profiles, residence, rotation, settling, spheres
-from . import thresholds as size
-from .claim import BOTH, DISCS, NOTHING, SPHERES, Claim, by_construction, untested
-from .settings import GRID, on_spheres
+from paper.claims import contacts, motion, profiles, residence, rotation, settling, spheres
+from paper.claims import thresholds as size
+from paper.claims.claim import BOTH, DISCS, NOTHING, SPHERES, Claim, by_construction, untested
+from paper.claims.settings import GRID, on_spheres
 
 
 def runs(table, *settings, numbers=GRID):

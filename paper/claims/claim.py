@@ -3,10 +3,10 @@
 import math
 import os
 
-import tables
-from verdicts import MISSING, UNDECIDED, UNTESTABLE, Judgement
+from paper import tables
+from paper.verdicts import MISSING, UNDECIDED, UNTESTABLE, Judgement
 
-from . import thresholds
+from paper.claims import thresholds
 
 # On what a claim is judged. Figures 1 to 4 and the text on particles are about the experiment,
 # whose spheres roll on a floor; Figure 5 and the SI are about the discs of the paper's simulation.

@@ -1,13 +1,33 @@
 """Claims on slip, spin and packing of the pinned particles: Figure 4, and the text on frustration.
 Each judge gets the setting of the runs (settings.py)."""
 
-from paper_parameters import SLIP_AT_25
-from verdicts import Value, above, agreed, below, combined, every, mean_of, measured, rises, within
+from paper.paper_parameters import SLIP_AT_25
+from paper.verdicts import (
+    Value,
+    above,
+    agreed,
+    below,
+    combined,
+    every,
+    mean_of,
+    measured,
+    rises,
+    within,
+)
 
-from . import thresholds as size
-from .settings import ROUGHER_THAN
-from .thresholds import HIGH_N
-from .wording import count, ends, known, lowest_to_highest, monotonic, number, value_at, values
+from paper.claims import thresholds as size
+from paper.claims.settings import ROUGHER_THAN
+from paper.claims.thresholds import HIGH_N
+from paper.claims.wording import (
+    count,
+    ends,
+    known,
+    lowest_to_highest,
+    monotonic,
+    number,
+    value_at,
+    values,
+)
 
 
 def slip_rises(study, setting):

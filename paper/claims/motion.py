@@ -3,8 +3,8 @@ minimal model."""
 
 import math
 
-import tables
-from paper_parameters import (
+from paper import tables
+from paper.paper_parameters import (
     CONTAINER_RADIUS,
     COUNTERROTATING_N,
     EVENTS,
@@ -16,7 +16,7 @@ from paper_parameters import (
     SHORTEST_TIMES,
     SIDES,
 )
-from verdicts import (
+from paper.verdicts import (
     UNDECIDED,
     UNTESTABLE,
     Judgement,
@@ -33,10 +33,10 @@ from verdicts import (
     within,
 )
 
-from . import thresholds as size
-from .settings import DISHES, SPHERES
-from .thresholds import ENERGY_PARTS, SCATTER_OF_SHORTEST
-from .wording import ends, number, values
+from paper.claims import thresholds as size
+from paper.claims.settings import DISHES, SPHERES
+from paper.claims.thresholds import ENERGY_PARTS, SCATTER_OF_SHORTEST
+from paper.claims.wording import ends, number, values
 
 
 # --- Figures 1 and 2: position and forces in the M-frame -----------------------------------------

@@ -3,13 +3,13 @@ judge gets the setting of the runs (settings.py)."""
 
 import math
 
-import tables
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from verdicts import FAILS, Value, above, below, combined, every, mean_of, measured, within
+from paper import tables
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper.verdicts import FAILS, Value, above, below, combined, every, mean_of, measured, within
 
-from . import thresholds as size
-from .settings import DISHES
-from .thresholds import (
+from paper.claims import thresholds as size
+from paper.claims.settings import DISHES
+from paper.claims.thresholds import (
     BETWEEN_LAYERS,
     FIRST_LAYER,
     IDENTICAL,
@@ -17,7 +17,7 @@ from .thresholds import (
     PEAK_WINDOW,
     SECOND_LAYER,
 )
-from .wording import count, ends, monotonic, number, values
+from paper.claims.wording import count, ends, monotonic, number, values
 
 
 def by_discs(profile, least_visits=LEAST_VISITS):

@@ -7,13 +7,13 @@ values are reported next to those of the residences and decide nothing (docs/res
 
 import math
 
-import tables
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from verdicts import FAILS, Value, above, agreed, below, combined, every, measured, within
+from paper import tables
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper.verdicts import FAILS, Value, above, agreed, below, combined, every, measured, within
 
-from . import thresholds as size
-from .thresholds import OTHER_SIDE
-from .wording import count, ends, monotonic, number
+from paper.claims import thresholds as size
+from paper.claims.thresholds import OTHER_SIDE
+from paper.claims.wording import count, ends, monotonic, number
 
 
 def one_row_per_discs(study, setting):

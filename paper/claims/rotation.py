@@ -3,8 +3,8 @@ runs (settings.py)."""
 
 import math
 
-from paper_parameters import EXPERIMENT_N, LAST_N
-from verdicts import (
+from paper.paper_parameters import EXPERIMENT_N, LAST_N
+from paper.verdicts import (
     FAILS,
     HOLDS,
     UNDECIDED,
@@ -13,7 +13,7 @@ from verdicts import (
     above,
     below,
     combined,
-    either,
+    any_holds,
     every,
     fact,
     mean_of,
@@ -21,10 +21,10 @@ from verdicts import (
     within,
 )
 
-from . import thresholds as size
-from .settings import SPHERES, rotation_rows
-from .thresholds import HIGH_N, LEVEL_FROM, MOST_RUNS
-from .wording import count, ends, known, number, value_at, values
+from paper.claims import thresholds as size
+from paper.claims.settings import SPHERES, rotation_rows
+from paper.claims.thresholds import HIGH_N, LEVEL_FROM, MOST_RUNS
+from paper.claims.wording import count, ends, known, number, value_at, values
 
 
 def transition(study, setting):
@@ -86,7 +86,7 @@ def minimum(study, setting):
 def one_passage(found):
     """From rotation to counterrotation once: below some number of particles none counterrotates,
     and from it on none rotates."""
-    return either(
+    return any_holds(
         every(
             [above(v, -size.LEAST_ROTATION) for v in found[:k]]
             + [below(v, size.LEAST_ROTATION) for v in found[k:]]
@@ -114,7 +114,7 @@ def passage(study, setting):
         row for row in rows if below(measured(row, rate), -size.LEAST_ROTATION).verdict == HOLDS
     ]
     still = [row for row in rows if stalls(measured(row, rate)).verdict == HOLDS]
-    return combined(one_passage(found), either(stalls(v) for v in found)), (
+    return combined(one_passage(found), any_holds(stalls(v) for v in found)), (
         f"certainly rotating at {len(rotating)} N, the last of them {last_of(rotating)}, certainly "
         "counterrotating at "
         f"{len(against)}, the first of them {last_of(against[:1])}; stalling at "

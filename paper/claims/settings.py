@@ -3,9 +3,9 @@ smooth spheres, and reported for the other settings."""
 
 import math
 
-from paper_parameters import AMPLITUDE, CONTAINER_RADIUS, EXPERIMENT_DISH, EXPERIMENT_N
+from paper.paper_parameters import AMPLITUDE, CONTAINER_RADIUS, EXPERIMENT_DISH, EXPERIMENT_N
 
-from .wording import ALSO, known
+from paper.claims.wording import ALSO, known
 
 WORDS = {
     "smooth": "smooth spheres",

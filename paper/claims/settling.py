@@ -1,10 +1,10 @@
 """Claims on spheres that settle at the wall: rigidity, encounters, and rolling in contact (figure
 "settling"). Each judge gets the setting of the runs (settings.py)."""
 
-from verdicts import above, below, combined, every, measured
+from paper.verdicts import above, below, combined, every, measured
 
-from . import thresholds as size
-from .wording import ends, number, values
+from paper.claims import thresholds as size
+from paper.claims.wording import ends, number, values
 
 
 def rigid(study, setting):

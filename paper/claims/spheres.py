@@ -5,17 +5,17 @@ One friction coefficient of all contacts is fitted to the N_c of the smooth sphe
 of the roughened ones. That such coefficients exist is a result; that N_c is then 36 and 28 is not.
 """
 
-import tables
-from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
-from verdicts import above, below, combined, either, every, falls, measured, within
+from paper import tables
+from paper.paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
+from paper.verdicts import above, any_holds, below, combined, every, falls, measured, within
 
-from . import contacts
-from . import thresholds as size
-from .rotation import elastic
-from .settings import WORDS, capital
-from .study import crossing_value, crossing_words
-from .thresholds import DENSE_SPHERES, FEW, JUMP
-from .wording import ends, number, value_at
+from paper.claims import contacts
+from paper.claims import thresholds as size
+from paper.claims.rotation import elastic
+from paper.claims.settings import WORDS, capital
+from paper.claims.study import crossing_value, crossing_words
+from paper.claims.thresholds import DENSE_SPHERES, FEW, JUMP
+from paper.claims.wording import ends, number, value_at
 
 
 # --- The change of direction --------------------------------------------------------------------
@@ -79,7 +79,7 @@ def nc_of_all(study):
 
 
 def change_near_36(study):
-    return either(judgement for _, judgement in changes_near(changes(study), SMOOTH_CHANGE_N)), (
+    return any_holds(judgement for _, judgement in changes_near(changes(study), SMOOTH_CHANGE_N)), (
         f"The coefficient with N_c = {SMOOTH_CHANGE_N} is μ = {fitted(study, SMOOTH_CHANGE_N)}. It "
         "is fitted, since the paper "
         "gives no friction coefficient: the claim holds if any coefficient has this N_c "
@@ -93,7 +93,7 @@ def roughened(study):
     smooth, rough = (
         changes_near(changes(study), discs) for discs in (SMOOTH_CHANGE_N, ROUGH_CHANGE_N)
     )
-    return either(every([a, b]) for low, a in smooth for high, b in rough if high > low), (
+    return any_holds(every([a, b]) for low, a in smooth for high, b in rough if high > low), (
         f"Fitted: μ = {fitted(study, SMOOTH_CHANGE_N)} for N_c = {SMOOTH_CHANGE_N}, μ = "
         f"{fitted(study, ROUGH_CHANGE_N)} for {ROUGH_CHANGE_N} (within {size.ROUGHLY:.0f}). "
         f"{nc_of_all(study)}."
@@ -123,7 +123,7 @@ def snake(study):
         )
         for row in rows
     ]
-    return either(found), (
+    return any_holds(found), (
         "After a long warm-up, ϖ/Ω and the share of the spheres that reside at the wall: "
         + "; ".join(
             f"{number(measured(row, 'mean_by_time'))} and {value_at(row, 'residence_share')}"

@@ -3,12 +3,12 @@
 import math
 import os
 
-import tables
-from paper_parameters import LAST_N
-from verdicts import UNDECIDED, Judgement, Value, fact
+from paper import tables
+from paper.paper_parameters import LAST_N
+from paper.verdicts import UNDECIDED, Judgement, Value, fact
 
-from .thresholds import NEAR_CROSSING
-from .wording import number
+from paper.claims.thresholds import NEAR_CROSSING
+from paper.claims.wording import number
 
 
 class Study:

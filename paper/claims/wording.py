@@ -3,9 +3,9 @@
 import math
 import re
 
-from verdicts import HOLDS, Value, largest_reversal, measured, rises
+from paper.verdicts import HOLDS, Value, largest_reversal, measured, rises
 
-from . import thresholds as size
+from paper.claims import thresholds as size
 
 # The found text of a claim has the value that is judged first, then, after this, those of other
 # settings.
@@ -17,7 +17,7 @@ def number(mean, error=math.nan):
     """1.234 ± 0.012, with as many digits as the error supports; n/a if the mean is unknown.
 
     This is swirl.with_error() for claims, which are judged without the module;
-    tests/python/paper_test.py compares them."""
+    paper/tests/stored_runs_test.py compares them."""
     if isinstance(mean, Value):
         mean, error = mean.mean, mean.error
     if mean is None or not math.isfinite(mean):

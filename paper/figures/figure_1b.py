@@ -1,11 +1,11 @@
 """Figure 1b, with the slip of Figure 4a: rotation of the experiment's spheres against their number,
 and the slip parameter of the pinned ones, with the numbers that the paper states."""
 
-import style
-from against_n import against_n
-from figure import Figure
-from paper_parameters import ROUGH_CHANGE_N, SLIP_AT_25, SMOOTH_CHANGE_N
-from runs import HALF, HIGH, ROUGH, SMOOTH
+from paper import style
+from paper.against_n import against_n
+from paper.figure import Figure
+from paper.paper_parameters import ROUGH_CHANGE_N, SLIP_AT_25, SMOOTH_CHANGE_N
+from paper.runs import HALF, HIGH, ROUGH, SMOOTH
 
 PAPER = {
     "color": style.BLACK,

@@ -4,11 +4,11 @@ simulated discs."""
 import math
 
 import numpy as np
-import style
-from engine import swirl
-from figure import Figure
-from paper_parameters import AMPLITUDE, CONTAINER_RADIUS, COUNTERROTATING_N, ROTATING_N
-from study import Point
+from paper import style
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.paper_parameters import AMPLITUDE, CONTAINER_RADIUS, COUNTERROTATING_N, ROTATING_N
+from paper.study import Point
 
 R, A = CONTAINER_RADIUS, AMPLITUDE
 PER_PERIOD = 1000  # frames

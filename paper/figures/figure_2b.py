@@ -1,11 +1,11 @@
 """Figures 2b and 2c: density of the discs in the M-frame, and their velocity relative to the
 container."""
 
-import style
-from combine import failed, steadiness
-from figure import Figure
-from paper_parameters import AMPLITUDES, COUNTERROTATING_N, ROTATING_N
-from runs import HIGH, SMOOTH, measured_point
+from paper import style
+from paper.combine import failed, steadiness
+from paper.figure import Figure
+from paper.paper_parameters import AMPLITUDES, COUNTERROTATING_N, ROTATING_N
+from paper.runs import HIGH, SMOOTH, measured_point
 
 LEAST_SHARE = 2e-4  # of all visits: cells with fewer have no arrow
 COLUMNS = (

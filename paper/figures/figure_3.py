@@ -1,11 +1,11 @@
 """Figures 3a and 3b: angular velocity of the discs about the centre of mass against the angle, also
 relative to that of the wall."""
 
-import style
-from combine import at, failed, number, steadiness
-from curves import measured_cells, with_error
-from figure import Figure
-from runs import HALF, HIGH, SMOOTH, measured_point, points_of
+from paper import style
+from paper.combine import at, failed, number, steadiness
+from paper.curves import measured_cells, with_error
+from paper.figure import Figure
+from paper.runs import HALF, HIGH, SMOOTH, measured_point, points_of
 
 FRICTIONS = (HIGH, SMOOTH, HALF)
 WORDS = {friction.name: friction.words for friction in FRICTIONS}

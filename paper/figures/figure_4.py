@@ -3,10 +3,10 @@ pinned particles. 4b: the spin of particles at the wall; the correlation of the 
 particles, in triangles and outside of them; and the share of the contacts that belong to a
 triangle. 4c: rotation of the cluster."""
 
-import style
-from against_n import against_n
-from figure import Figure
-from runs import HALF, HIGH, LOW, ROUGH, SMOOTH
+from paper import style
+from paper.against_n import against_n
+from paper.figure import Figure
+from paper.runs import HALF, HIGH, LOW, ROUGH, SMOOTH
 
 SLIPS = (
     ("pinned_region", "pinned (SI)"),

@@ -3,14 +3,13 @@ coefficients; below, the same around zero, where curves cross."""
 
 import math
 
-import style
-import tables
-from combine import at, number, too_short_to_average
-from curves import curve_tables, curves_by, lowest_of, with_error
-from engine import swirl
-from figure import Figure
-from paper_parameters import LAST_N
-from runs import (
+from paper import style, tables
+from paper.combine import at, number, too_short_to_average
+from paper.curves import curve_tables, curves_by, lowest_of, with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.paper_parameters import LAST_N
+from paper.runs import (
     FRICTION_OF_5B,
     HIGH,
     NO_DISC,
@@ -25,7 +24,7 @@ from runs import (
     settled_run,
     sparse_numbers,
 )
-from study import Point
+from paper.study import Point
 
 WITHOUT = {friction.name: friction for friction in (NO_WALL, NO_DISC)}
 NEAR_ZERO = 0.1  # in Ω: upper limit of the lower panel

@@ -1,11 +1,11 @@
 """Figures 5c and 5d: density of the discs in the M-frame, and their velocity relative to the
 container, rotating and counterrotating."""
 
-import style
-from combine import failed, steadiness
-from figure import Figure
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from runs import HIGH, measured_point
+from paper import style
+from paper.combine import failed, steadiness
+from paper.figure import Figure
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper.runs import HIGH, measured_point
 
 LEAST_SHARE = 1e-4  # of all visits: cells with fewer have no arrow
 

@@ -1,12 +1,12 @@
 """Beyond the paper: the average over events minus that over time, for the five pairs of friction
 coefficients of 5b."""
 
-import style
-from curves import Curve, rows_of, with_error
-from figure import Figure
-from figures.figure_5b import CURVES, friction_words, points
-from paper_parameters import LAST_N
-from runs import FRICTION_OF_5B
+from paper import style
+from paper.curves import Curve, rows_of, with_error
+from paper.figure import Figure
+from paper.figures.figure_5b import CURVES, friction_words, points
+from paper.paper_parameters import LAST_N
+from paper.runs import FRICTION_OF_5B
 
 
 def largest_difference(curve):

@@ -4,14 +4,14 @@ at the wall."""
 
 import itertools
 
-import style
-from combine import number
-from curves import with_error
-from engine import swirl
-from figure import Figure
-from paper_parameters import CONTAINER_RADIUS
-from runs import lengths
-from study import Point
+from paper import style
+from paper.combine import number
+from paper.curves import with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.paper_parameters import CONTAINER_RADIUS
+from paper.runs import lengths
+from paper.study import Point
 
 BOUNCES = ((0.5, "full", "-"), (1.0, "none", ":"))
 REPORTED_RADIUS = 5.0

@@ -2,14 +2,14 @@
 number of discs, and the granular temperature before and after."""
 
 import numpy as np
-import style
-from combine import at, min_periods, number
-from curves import with_error
-from engine import result_of, simulation_of, swirl
-from figure import Figure
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from runs import NO_DISC, paper_run, with_periods
-from study import Point
+from paper import style
+from paper.combine import at, min_periods, number
+from paper.curves import with_error
+from paper.engine import result_of, simulation_of, swirl
+from paper.figure import Figure
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper.runs import NO_DISC, paper_run, with_periods
+from paper.study import Point
 
 LITTLE_MOTION = 0.1  # of ΩR
 QUIET = 10  # periods with little motion, until the cluster counts as condensed

@@ -2,14 +2,14 @@
 
 import math
 
-import style
-from combine import failed
-from curves import with_error
-from engine import simulation_of
-from figure import Figure
-from paper_parameters import ROTATING_N
-from runs import sides
-from study import Point
+from paper import style
+from paper.combine import failed
+from paper.curves import with_error
+from paper.engine import simulation_of
+from paper.figure import Figure
+from paper.paper_parameters import ROTATING_N
+from paper.runs import sides
+from paper.study import Point
 
 
 def energy_series(parameters):

@@ -1,10 +1,10 @@
 """Beyond the paper: the number of discs at which rotation turns into counterrotation, against the
 friction coefficient."""
 
-import style
-from figure import Figure
-from runs import numbers_beyond, text
-from searches import SEARCH_COLUMNS, search_cells, search_point
+from paper import style
+from paper.figure import Figure
+from paper.runs import numbers_beyond, text
+from paper.searches import SEARCH_COLUMNS, search_cells, search_point
 
 
 def points(settings):

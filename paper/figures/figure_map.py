@@ -1,12 +1,12 @@
 """Beyond the paper: rotation of 48 discs against both friction coefficients."""
 
 import numpy as np
-import style
-from curves import CERTAIN, lowest_of, rate_of, rows_of, with_error
-from figure import Figure
-from paper_parameters import LAST_N
-from runs import length_of, lengths, text
-from study import Point
+from paper import style
+from paper.curves import CERTAIN, lowest_of, rate_of, rows_of, with_error
+from paper.figure import Figure
+from paper.paper_parameters import LAST_N
+from paper.runs import length_of, lengths, text
+from paper.study import Point
 
 
 def points(settings):

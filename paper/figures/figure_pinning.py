@@ -1,11 +1,11 @@
 """Where in the M-frame discs pin and depin, by the criterion of the paper's Supplementary
 Information and by residences in the wall layer."""
 
-import style
-from combine import failed, number
-from figure import Figure
-from figures.figure_3 import FIRST, first_cells, points
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper import style
+from paper.combine import failed, number
+from paper.figure import Figure
+from paper.figures.figure_3 import FIRST, first_cells, points
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
 
 CRITERIA = (
     ("the SI's criterion", style.RED, "--", ("si_pinning", "si_depinning")),

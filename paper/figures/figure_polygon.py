@@ -1,11 +1,11 @@
 """Beyond the paper: rotation against the number of sides of the container's path."""
 
-import style
-from curves import rate_of, rows_of, with_error
-from figure import Figure
-from paper_parameters import COUNTERROTATING_N, ROTATING_N
-from runs import sides
-from study import Point
+from paper import style
+from paper.curves import rate_of, rows_of, with_error
+from paper.figure import Figure
+from paper.paper_parameters import COUNTERROTATING_N, ROTATING_N
+from paper.runs import sides
+from paper.study import Point
 
 
 def points(settings):

@@ -23,13 +23,13 @@ import math
 
 import numpy as np
 
-import style
-from combine import means
-from curves import with_error
-from engine import simulation_of, swirl
-from figure import Figure
-from runs import ROUGH, SMOOTH, length_of, lengths
-from study import Point
+from paper import style
+from paper.combine import means
+from paper.curves import with_error
+from paper.engine import simulation_of, swirl
+from paper.figure import Figure
+from paper.runs import ROUGH, SMOOTH, length_of, lengths
+from paper.study import Point
 
 PER_PERIOD = 511
 FEWEST = 4

@@ -1,11 +1,11 @@
 """Spheres that roll: rotation against their number in the experiment's container, smooth and
 roughened, and for both readings of the amplitude."""
 
-import style
-from combine import at
-from curves import curve_tables, curves_by, rows_of, sign_changes_sentence, with_error
-from figure import Figure
-from runs import (
+from paper import style
+from paper.combine import at
+from paper.curves import curve_tables, curves_by, rows_of, sign_changes_sentence, with_error
+from paper.figure import Figure
+from paper.runs import (
     HALF,
     ROUGH,
     SMOOTH,
@@ -16,7 +16,7 @@ from runs import (
     point,
     with_periods,
 )
-from study import Point
+from paper.study import Point
 
 WORDS = {friction.name: friction.words for friction in (SMOOTH, ROUGH, HALF)}
 

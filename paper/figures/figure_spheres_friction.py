@@ -4,12 +4,12 @@ roughened spheres."""
 
 import math
 
-import style
-from curves import with_error
-from figure import Figure
-from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
-from runs import text
-from searches import SEARCH_COLUMNS, search_cells, search_point
+from paper import style
+from paper.curves import with_error
+from paper.figure import Figure
+from paper.paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
+from paper.runs import text
+from paper.searches import SEARCH_COLUMNS, search_cells, search_point
 
 PANELS = (
     ("amplitude $A$", "A", "{amplitude_mm:g} mm"),

@@ -1,10 +1,10 @@
 """Spheres that roll: rotation with each ingredient of the model switched off alone."""
 
-import style
-from curves import curve_tables, curves_by, sign_change_rows, sign_changes_sentence
-from figure import Figure
-from runs import ROUGH, SMOOTH, length_of, paper_run
-from study import Point
+from paper import style
+from paper.curves import curve_tables, curves_by, sign_change_rows, sign_changes_sentence
+from paper.figure import Figure
+from paper.runs import ROUGH, SMOOTH, length_of, paper_run
+from paper.study import Point
 
 CURVES = [
     ("all", "all ingredients", style.BLACK, "o"),

@@ -1,11 +1,11 @@
 """Motion of the discs in the M-frame, with both kinds of friction and with one of them absent."""
 
-import style
-from against_n import findings_of
-from curves import rows_of
-from figure import Figure
-from paper_parameters import CONTAINER_RADIUS, COUNTERROTATING_N, OMEGA, ROTATING_N
-from runs import HIGH, NO_DISC, NO_WALL, measured_point, settled_point
+from paper import style
+from paper.against_n import findings_of
+from paper.curves import rows_of
+from paper.figure import Figure
+from paper.paper_parameters import CONTAINER_RADIUS, COUNTERROTATING_N, OMEGA, ROTATING_N
+from paper.runs import HIGH, NO_DISC, NO_WALL, measured_point, settled_point
 
 SETTINGS = (
     ("high", "both coefficients 1", style.RED),

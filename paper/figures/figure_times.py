@@ -5,12 +5,12 @@ respectively" (SI, "Finding the next event")."""
 import math
 
 import numpy as np
-from combine import failed
-from engine import simulation_of, swirl
-from figure import Figure
-from paper_parameters import COUNTERROTATING_N
-from runs import Friction, paper_run
-from study import Point
+from paper.combine import failed
+from paper.engine import simulation_of, swirl
+from paper.figure import Figure
+from paper.paper_parameters import COUNTERROTATING_N
+from paper.runs import Friction, paper_run
+from paper.study import Point
 
 EVENTS_AT_ONCE = 100_000
 

@@ -3,13 +3,13 @@
 import math
 
 import numpy as np
-import style
-from curves import with_error
-from engine import swirl
-from figure import Figure
-from paper_parameters import EVENTS
-from runs import NO_DISC, paper_run, with_periods
-from study import Point
+from paper import style
+from paper.curves import with_error
+from paper.engine import swirl
+from paper.figure import Figure
+from paper.paper_parameters import EVENTS
+from paper.runs import NO_DISC, paper_run, with_periods
+from paper.study import Point
 
 SEEDS = 4
 

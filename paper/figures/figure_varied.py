@@ -1,10 +1,10 @@
 """Beyond the paper: a curve ϖ(N) for each value of a parameter that the paper holds fixed."""
 
-import style
-from curves import curve_tables, curves_by
-from figure import Figure
-from paper_parameters import LAST_N
-from runs import (
+from paper import style
+from paper.curves import curve_tables, curves_by
+from paper.figure import Figure
+from paper.paper_parameters import LAST_N
+from paper.runs import (
     HIGH,
     dense_length,
     length_of,
@@ -14,7 +14,7 @@ from runs import (
     text,
     with_periods,
 )
-from study import DEFAULT_EVENTS, Point
+from paper.study import DEFAULT_EVENTS, Point
 
 
 def curve_points(settings, name, parameter, values, numbers, **parameters):

@@ -471,7 +471,8 @@ class Figure(InFolder):
                 [
                     "/usr/bin/python3",
                     "-B",
-                    os.path.join(SOURCE, "paper", "parameter_map.py"),
+                    os.path.join(SOURCE, "paper"),
+                    "parameter_map",
                     self.path(f"{name}.csv"),
                 ],
                 check=True,

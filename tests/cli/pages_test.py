@@ -26,7 +26,7 @@ NOT_RUN = (
     (r"sbatch ", "needs a cluster"),
     (r"snakemake ", "a package of its own; cluster_test runs the workflow"),
     (r"python3 tests/mutation/", "takes hours; the suite slow runs it"),
-    (r"/usr/bin/python3 paper/|ffmpeg |'\[0\]trim", "draws from the output of a long command"),
+    (r"/usr/bin/python3 paper |ffmpeg |'\[0\]trim", "draws from the output of a long command"),
     (r"for |done$|grep ", "the shell around a call"),
 )
 # Subcommands of the launcher script, with tests of their own (launcher, lab, site, python.*).

@@ -199,7 +199,7 @@ LONGER = [
 ]
 WITHOUT_KILLS = {
     "verify": "writes no file",
-    "paper": "waits for a process of its pool that is killed; paper_test.py kills it",
+    "paper": "waits for a process of its pool that is killed; stored_runs_test.py kills it",
 }
 CALLS = ("open", "read", "pwrite", "fsync", "truncate", "rename", "unlink", "close")
 BEFORE_MAIN = 80  # upper limit of the calls of new before main(), where no error can be reported

@@ -50,7 +50,7 @@ OPTIONS = {"collect": [], "run": ["--quiet"]}  # of all calls of these commands
 PAPER = """
 import sys
 sys.path.insert(0, sys.argv[1])
-import study
+from paper import study
 
 def ratio(parameters):
     return {"ratio": parameters["seed"] / 3}
@@ -74,7 +74,7 @@ def run(call, folder, inputs, **environment):
     """Ends with its exit code; the paper's runs are made by a Python script."""
     call = [part.replace("FOLDER", folder).replace("INPUT", inputs) for part in call]
     if call[0] == "paper":
-        words = ["/usr/bin/python3", "-B", "-c", PAPER, os.path.join(SOURCE, "paper"), folder]
+        words = ["/usr/bin/python3", "-B", "-c", PAPER, SOURCE, folder]
     else:
         words = [SWIRL, *call, *OPTIONS.get(call[0], ["--threads", "1", "--quiet"])]
     return subprocess.run(
@@ -278,8 +278,8 @@ class Folders(unittest.TestCase):
                 self.assert_undisturbed(kind, folder)
 
     def test_a_killed_call_leaves_nothing_after_its_repetition(self):
-        # A worker of the paper's pool that is killed is waited for: paper_test.py has its temporary
-        # files.
+        # A worker of the paper's pool that is killed is waited for. stored_runs_test.py has its
+        # temporary files.
         cases = [
             (kind, number, at)
             for kind, counts in self.changes.items()

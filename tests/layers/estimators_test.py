@@ -67,6 +67,7 @@ def estimators():
             ("web/src", "*.ts"),
         )
         for file in (SOURCE / folder).rglob(pattern)
+        if "tests" not in file.parts[len(SOURCE.parts) :]
     ]
     return {
         (file.relative_to(SOURCE).as_posix(), kind)

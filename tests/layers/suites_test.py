@@ -24,7 +24,7 @@ BY_THE_CLOCK = {
     "*.mjs": r"timeout: ?\d|DefaultTimeout\(\d|\}, \d+_000\)",
     "*.cpp": r"usleep\(1'?000'?000|sleep_for\(std::chrono::seconds",
 }
-FOLDERS = ("tests/**", "track/tests/**", "web", "web/test")
+FOLDERS = ("tests/**", "track/tests/**", "paper/tests/**", "web", "web/test")
 # The tests of waiting itself, and of what happens meanwhile.
 ALLOWED = {
     "tests/cli/launcher_test.py": "time.time() + 7200",
@@ -74,8 +74,9 @@ class Suites(unittest.TestCase):
         self.assertGreater(seen, 100)
 
     def test_each_script_is_a_test_and_runs_complete_in_the_slow_suite(self):
-        for script in [*SOURCE.glob("tests/*/*_test.py"), *SOURCE.glob("track/tests/*_test.py")]:
-            folder = "track" if "track" in script.parts else script.parent.name
+        for script in [*SOURCE.glob("tests/*/*_test.py"), *SOURCE.glob("*/tests/*_test.py")]:
+            parent = script.parent
+            folder = parent.parent.name if parent.name == "tests" else parent.name
             if folder == "threads":
                 continue  # under the thread sanitizer only (preset threads)
             name = f"{folder}.{script.stem}"

@@ -357,7 +357,7 @@ std::filesystem::path write_video_report(const TrackedVideo& video, const VideoS
     write_output(folder / "found.json", about.dump(2) + "\n");
     draw_found(video, source.video, std::filesystem::path(source.video).filename().string(),
                folder / "video.png");
-    run_python_script("track.py", {folder.string()}, &stop_signal());
+    run_python_script("track", {folder.string()}, &stop_signal());
     return folder / "report.html";
 }
 

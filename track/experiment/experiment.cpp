@@ -529,7 +529,7 @@ ExperimentResult make_experiment(const std::vector<ContainerVideo>& videos,
     const fs::path about = settings.out / "experiment.json";
     write_file_atomically(about, result.json.dump(2) + "\n");
     result.files.push_back(about);
-    run_python_script("experiment.py", {settings.out.string()}, control.stop);
+    run_python_script("experiment", {settings.out.string()}, control.stop);
     for (const fs::directory_entry& entry : fs::directory_iterator(settings.out))
         if (entry.path().filename().string().starts_with("figure_"))
             result.files.push_back(entry.path());

@@ -272,7 +272,7 @@ std::optional<double> period_of(const SearchTask& task) {
 
 /// Draws N_c against the parameters; the figures lie next to the table.
 void draw_table(const CrossingCall& call) {
-    run_python_script("crossing_table.py", {call.table}, &stop_signal());
+    run_python_script("crossing_table", {call.table}, &stop_signal());
     const auto stem = std::filesystem::path(call.table).replace_extension();
     if (!call.quiet && !call.uses_stdout())
         print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));

@@ -173,7 +173,7 @@ std::string write_map_files(const MapCall& call, const SweepPlan& plan, const Ma
     write_output(file, table);
     const std::string lines = report_line("table", file.string());
     if (call.no_figure || state.sites.size() < 2) return lines;
-    run_python_script("parameter_map.py",
+    run_python_script("parameter_map",
                       {file.string(), "--level", fmt::format("{}", plan.map->level)},
                       &stop_signal());
     const auto with = [&](const char* ending) {

@@ -78,10 +78,10 @@ void add_paper_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl paper --figure 5b --quick",
                              "swirl paper --figure 5b --out fig5b",
                              "swirl paper --figure chapters --quick", "swirl paper --quick"});
-    subcommand.explain([] { return output_of_python_script("catalogue.py").text; });
+    subcommand.explain([] { return output_of_python_script("catalogue").text; });
     subcommand.check([call] {
         if (call->figures.empty()) return;
-        const ScriptOutput found = output_of_python_script("catalogue.py", call->figures);
+        const ScriptOutput found = output_of_python_script("catalogue", call->figures);
         if (found.status == 2) throw UsageError(found.text);
     });
     subcommand.callback([call, &subcommand] {
@@ -93,7 +93,7 @@ void add_paper_command(Subcommand& subcommand) {
                 if (into->empty()) *into = found->second;
         const std::string json = json_of(*call).dump();
         make_folder(call->out);
-        become_python_script("__main__.py", {json});
+        become_python_script("command", {json});
     });
 }
 

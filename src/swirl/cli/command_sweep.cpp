@@ -285,7 +285,7 @@ void draw_table(const CollectCall& call, const std::vector<RotationPoint>& point
         write_output(file, own_points_csv(points));
         arguments.insert(arguments.end(), {"--points", file.string()});
     }
-    run_python_script("sweep_table.py", arguments, &stop_signal());
+    run_python_script("sweep_table", arguments, &stop_signal());
     const fs::path stem = fs::path(call.table_file()).replace_extension();
     if (call.prints_report()) print_all(fmt::format("drawn: {0}.png, {0}.pdf\n", stem.string()));
 }

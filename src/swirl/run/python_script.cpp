@@ -25,13 +25,6 @@ std::string interpreter() {
     return chosen != nullptr && *chosen != '\0' ? chosen : "/usr/bin/python3";
 }
 
-/// Python is isolated (-I): neither PYTHONPATH, where an empty entry is the current folder, nor
-/// packages of the user can replace a module. The scripts import each other, so their folder comes
-/// first.
-constexpr const char* runner =
-    "import os, runpy, sys; del sys.argv[0]; sys.path.insert(0, os.path.dirname(sys.argv[0])); "
-    "runpy.run_path(sys.argv[0], run_name='__main__')";
-
 /// The words as execv() takes them.
 std::vector<char*> pointers_to(std::vector<std::string>& words) {
     std::vector<char*> argv;
@@ -78,11 +71,11 @@ fs::path figures_folder() {
         (program.parent_path() / "../share/swirl/paper").lexically_normal().string()));
 }
 
-/// The command line of a script.
+/// The command line of a module. Python is isolated (-I): neither PYTHONPATH, where an empty entry
+/// is the current folder, nor packages of the user can replace a module.
 static std::vector<std::string> command_of(const std::string& script,
                                            const std::vector<std::string>& arguments) {
-    std::vector<std::string> words{interpreter(), "-I",   "-B",
-                                   "-c",          runner, (figures_folder() / script).string()};
+    std::vector<std::string> words{interpreter(), "-I", "-B", figures_folder().string(), script};
     words.insert(words.end(), arguments.begin(), arguments.end());
     return words;
 }
@@ -111,7 +104,7 @@ void run_python_script(const std::string& script, const std::vector<std::string>
             "the figures need matplotlib; the tables are written.\n"
             "hint: install the Debian package python3-matplotlib.");
     throw Failure(
-        fmt::format("paper/{} failed; the tables are written: {}", script,
+        fmt::format("paper/{}.py failed; the tables are written: {}", script,
                     output.text.empty() ? "no reason given." : last_message(output.text)));
 }
 

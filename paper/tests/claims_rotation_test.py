@@ -4,9 +4,9 @@ import unittest
 
 from claim_tables import HandMadeTables
 
-import claims
-from claims import rotation
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
+from paper import claims
+from paper.claims import rotation
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
 
 class Rotation(HandMadeTables):

@@ -6,10 +6,9 @@ import unittest
 from claim_tables import HandMadeTables
 from program import read_rows
 
-import paper_parameters
-import tables
-from claims import profiles, residence
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
+from paper import paper_parameters, tables
+from paper.claims import profiles, residence
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
 
 class Profiles(HandMadeTables):

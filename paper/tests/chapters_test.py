@@ -2,27 +2,21 @@
 
 import csv
 import math
-import os
-import sys
 import types
 
 import numpy as np
 import pytest
 import swirl
 
-sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
-import catalogue  # noqa: E402
-import cluster_axis  # noqa: E402
-import curves  # noqa: E402
-import study  # noqa: E402
-from chapters import coexistence, cooling, gear_order, lifetimes  # noqa: E402
-from chapters.critical import power_law, scaling_tables, verdict_on  # noqa: E402
-from coarse_zero import crossing_of_curve, last_zero, zero_of_curve  # noqa: E402
-from dishes import direction_changes, kind_of, shares_of_the_states  # noqa: E402
-from hard_discs import kinematic_viscosity, sound_speed  # noqa: E402
-from jackknife import jackknife  # noqa: E402
-from micropolar import RELATIONS, Relation, fit_relation  # noqa: E402
-from swirled_state import densities, fit_hypotrochoids  # noqa: E402
+from paper import catalogue, cluster_axis, curves, study
+from paper.chapters import coexistence, cooling, gear_order, lifetimes
+from paper.chapters.critical import power_law, scaling_tables, verdict_on
+from paper.coarse_zero import crossing_of_curve, last_zero, zero_of_curve
+from paper.standard_runs import direction_changes, kind_of, shares_of_the_states
+from paper.hard_discs import kinematic_viscosity, sound_speed
+from paper.jackknife import jackknife
+from paper.micropolar import RELATIONS, Relation, fit_relation
+from paper.swirled_state import densities, fit_hypotrochoids
 
 EXACT = 1e-12  # rounding errors of sums of a few hundred terms
 

@@ -8,9 +8,9 @@ import unittest
 from claim_tables import HandMadeTables
 
 import numpy as np
-from claims import settling
-from figures import figure_settling
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
+from paper.claims import settling
+from paper.figures import figure_settling
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
 
 class Judges(HandMadeTables):

@@ -11,9 +11,9 @@ import unittest
 
 import claim_tables  # noqa: F401  (finds the folder paper/)
 
-import claims
-from claims.claim import NOTHING
-from verdicts import FAILS, HOLDS, IN_PART
+from paper import claims
+from paper.claims.claim import NOTHING
+from paper.verdicts import FAILS, HOLDS, IN_PART
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 TESTS = sorted(

@@ -9,12 +9,11 @@ import unittest
 from claim_tables import HandMadeTables, SOURCE
 from program import read_json, read_rows, read_text
 
-import claims
-import claims_page
-from claims import rotation, thresholds
-from claims.claim import BOTH, DISCS, NOTHING, SPHERES, UNTESTED, Claim
-from claims.wording import number
-from verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Value, above
+from paper import claims, claims_page
+from paper.claims import rotation, thresholds
+from paper.claims.claim import BOTH, DISCS, NOTHING, SPHERES, UNTESTED, Claim
+from paper.claims.wording import number
+from paper.verdicts import FAILS, HOLDS, IN_PART, MISSING, UNDECIDED, UNTESTABLE, Value, above
 
 
 def claim_that(words):

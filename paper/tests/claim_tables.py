@@ -7,10 +7,9 @@ import tempfile
 import unittest
 
 SOURCE = os.environ.get("SWIRL_SOURCE") or os.path.join(os.path.dirname(__file__), "..", "..")
-sys.path.insert(0, os.path.join(SOURCE, "paper"))
 sys.dont_write_bytecode = True
 
-from claims.study import Study  # noqa: E402
+from paper.claims.study import Study
 
 
 class HandMadeTables(unittest.TestCase):

@@ -4,8 +4,8 @@ import unittest
 
 from claim_tables import HandMadeTables
 
-from claims import contacts
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
+from paper.claims import contacts
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
 
 class Contacts(HandMadeTables):

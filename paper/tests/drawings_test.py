@@ -15,16 +15,11 @@ from unittest import mock
 
 from program import SOURCE, read_text
 
-sys.path.insert(0, os.path.join(SOURCE, "paper"))
-import captions  # noqa: E402
-import catalogue  # noqa: E402
-import draw  # noqa: E402
-import style  # noqa: E402
-import tables  # noqa: E402
-from figures.figure_3 import sliding  # noqa: E402
-from matplotlib.collections import LineCollection  # noqa: E402
-from matplotlib.quiver import Quiver  # noqa: E402
-from matplotlib.text import Text  # noqa: E402
+from paper import captions, catalogue, draw, style, tables
+from paper.figures.figure_3 import sliding
+from matplotlib.collections import LineCollection
+from matplotlib.quiver import Quiver
+from matplotlib.text import Text
 
 MIN_FONT_SIZE = 7.0  # points, at the original size of the figure
 R = 8.6

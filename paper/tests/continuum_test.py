@@ -9,9 +9,8 @@ import sys
 import numpy as np
 import pytest
 
-sys.path.insert(0, os.path.join(os.environ["SWIRL_SOURCE"], "paper"))
-import continuum  # noqa: E402
-from hard_discs import pressure_ratio  # noqa: E402
+from paper import continuum
+from paper.hard_discs import pressure_ratio
 
 COEFFICIENTS = {
     "rotational_viscosity": 0.7,
@@ -232,8 +231,8 @@ def test_the_wall_law_recovers_a_planted_coefficient():
 
 
 def script(*words):
-    path = os.path.join(os.environ["SWIRL_SOURCE"], "paper", "continuum.py")
-    return subprocess.run([sys.executable, path, *words], capture_output=True, text=True)
+    call = [sys.executable, os.path.join(os.environ["SWIRL_SOURCE"], "paper"), "continuum", *words]
+    return subprocess.run(call, capture_output=True, text=True)
 
 
 def write(path, columns):

@@ -4,12 +4,12 @@ import dataclasses
 import json
 import math
 
-from coarse_zero import changes_of_sign, middle_zero, zero_of_curve
-from combine import at, number
-from curves import CERTAIN, direction_of, rate_of, rows_of, with_error
-from engine import swirl
-from runs import length_of, lengths
-from study import Point
+from paper.coarse_zero import changes_of_sign, middle_zero, zero_of_curve
+from paper.combine import at, number
+from paper.curves import CERTAIN, direction_of, rate_of, rows_of, with_error
+from paper.engine import swirl
+from paper.runs import length_of, lengths
+from paper.study import Point
 
 
 @dataclasses.dataclass(frozen=True)
@@ -66,6 +66,9 @@ def fluctuating_run(parameters):
         "susceptibility": {"mean": variance * time, "error": None},
     }
     return result
+
+
+fluctuating_run.stored_as = "dishes.fluctuating_run"
 
 
 def dish_points(settings, dishes):

@@ -5,7 +5,7 @@ import random
 import unittest
 
 import claim_tables  # noqa: F401  (finds paper/)
-from verdicts import (
+from paper.verdicts import (
     FAILS,
     HOLDS,
     IN_PART,
@@ -16,7 +16,7 @@ from verdicts import (
     agreed,
     below,
     combined,
-    either,
+    any_holds,
     every,
     fact,
     falls,
@@ -111,9 +111,9 @@ class Rules(unittest.TestCase):
         self.assertEqual(every([yes, yes]), HOLDS)
         self.assertEqual(every([yes, no, undecided]), FAILS)
         self.assertEqual(every([yes, undecided]), UNDECIDED)
-        self.assertEqual(either([no, yes, undecided]), HOLDS)
-        self.assertEqual(either([no, undecided]), UNDECIDED)
-        self.assertEqual(either([no, no]), FAILS)
+        self.assertEqual(any_holds([no, yes, undecided]), HOLDS)
+        self.assertEqual(any_holds([no, undecided]), UNDECIDED)
+        self.assertEqual(any_holds([no, no]), FAILS)
 
     def test_disagreeing_choices_are_undecided(self):
         yes, no = Judgement(HOLDS), Judgement(FAILS)
@@ -147,8 +147,8 @@ class Rules(unittest.TestCase):
         self.assertEqual(every([half, yes]), IN_PART)
         self.assertEqual(every([half, no]), FAILS)
         self.assertEqual(every([half, undecided]), UNDECIDED)
-        self.assertEqual(either([half, no]), IN_PART)
-        self.assertEqual(either([half, yes]), HOLDS)
+        self.assertEqual(any_holds([half, no]), IN_PART)
+        self.assertEqual(any_holds([half, yes]), HOLDS)
         self.assertEqual(combined(half), IN_PART)
         self.assertEqual(combined(half, yes), IN_PART)
         self.assertEqual(combined(half, no), IN_PART)

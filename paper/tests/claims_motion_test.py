@@ -5,9 +5,9 @@ import unittest
 
 from claim_tables import HandMadeTables
 
-import paper_parameters
-from claims import motion
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, UNTESTABLE
+from paper import paper_parameters
+from paper.claims import motion
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, UNTESTABLE
 
 
 class Motion(HandMadeTables):

@@ -4,13 +4,13 @@ it is undecided. Its numbers come from the tables."""
 
 import math
 
-from claims import claim_stating, spheres
-from claims.settings import SPHERES, WORDS, capital
-from claims.study import Study, crossing_sentence
-from claims.thresholds import LEAST_ROTATION
-from claims.wording import ends, known, number, value_at
-from paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
-from verdicts import (
+from paper.claims import claim_stating, spheres
+from paper.claims.settings import SPHERES, WORDS, capital
+from paper.claims.study import Study, crossing_sentence
+from paper.claims.thresholds import LEAST_ROTATION
+from paper.claims.wording import ends, known, number, value_at
+from paper.paper_parameters import ROUGH_CHANGE_N, SMOOTH_CHANGE_N
+from paper.verdicts import (
     FAILS,
     HOLDS,
     IN_PART,

@@ -16,17 +16,10 @@ from hypothesis import strategies as st
 
 import swirl
 
-PAPER = os.path.join(os.environ["SWIRL_SOURCE"], "paper")
-sys.path.insert(0, PAPER)
-import atomic_file  # noqa: E402
-import catalogue  # noqa: E402
-import combine  # noqa: E402
-import command  # noqa: E402
-import console  # noqa: E402
-import figure  # noqa: E402
-import study  # noqa: E402
-from claims import wording  # noqa: E402
+from paper import atomic_file, catalogue, combine, command, console, figure, study
+from paper.claims import wording
 
+SOURCE = os.environ["SWIRL_SOURCE"]
 EVENTS = 2000
 
 
@@ -81,7 +74,7 @@ def test_a_file_that_is_written_again_leaves_no_temporary_file(tmp_path):
 
 
 def test_what_cannot_be_read_is_not_absent(tmp_path):
-    import optional_file
+    from paper import optional_file
 
     atomic_file.store(str(tmp_path / "a.json"), [1])
     assert atomic_file.stored(str(tmp_path / "a.json")) == [1]
@@ -105,7 +98,7 @@ def test_results_of_another_version_are_kept(tmp_path, name, folder, capsys):
         Path(tmp_path, f"{folder}_of_0.0.9_abc_d"),
     )
     table, file = rows(tmp_path, name), sorted(Path(tmp_path, folder).iterdir())[0]
-    text = file.read_text().replace(swirl._engine.version(), version)
+    text = file.read_text().replace(swirl.version(), version)
     if folder == "parts":
         atomic_file.store(str(file), {**json.loads(text)["content"]})
         text = file.read_text()
@@ -194,13 +187,13 @@ def test_runs_of_other_calls_are_not_made(tmp_path):
 
 
 def test_runs_that_another_process_makes_are_awaited(tmp_path, monkeypatch):
-    sweep, calls = swirl._engine.sweep, []
+    run, calls = swirl.SweepFolder.run, []
 
-    def first_elsewhere(*arguments):
-        calls.append(arguments)
-        return (0, 0, 2, "") if len(calls) == 1 else sweep(*arguments)
+    def first_elsewhere(folder, **how):
+        calls.append(how)
+        return swirl.SweepCounts(0, 0, 2, "") if len(calls) == 1 else run(folder, **how)
 
-    monkeypatch.setattr(swirl._engine, "sweep", first_elsewhere)
+    monkeypatch.setattr(swirl.SweepFolder, "run", first_elsewhere)
     settings = study.Settings(quick=True, events=EVENTS, out=str(tmp_path))
     point = study.Point(settings, "p", 2, {"discs": 5})
     assert study.make([point], settings)["failed"] == 0
@@ -259,13 +252,13 @@ def test_an_error_in_the_code_of_a_figure_does_not_end_the_others(
         "quiet": True,
     }
     with pytest.raises(console.Problem, match="figures that could not be made: broken") as problem:
-        command.main(call)
+        command.make(call)
     assert problem.value.code == 1
     assert "LookupError: no such number" in capsys.readouterr().out
     assert rows(tmp_path, "good") == [["point"], ["g"]]
     if broken.points is raises:
         with pytest.raises(console.Problem, match="figure broken cannot be made: LookupError"):
-            command.main(call | {"part": [1, 1]})
+            command.make(call | {"part": [1, 1]})
 
 
 def test_tables_need_no_matplotlib(tmp_path):
@@ -277,12 +270,12 @@ def test_tables_need_no_matplotlib(tmp_path):
             f"""
 import sys
 sys.modules["matplotlib"] = None
-sys.path.insert(0, {PAPER!r})
-import catalogue, command, study
+sys.path.insert(0, {SOURCE!r})
+from paper import catalogue, command, study
 for figure in catalogue.named(["all"]):
     figure.points(study.Settings(quick=True))
 try:
-    command.main({call})
+    command.make({call})
 except command.Problem as problem:
     sys.exit(problem.code)
 """,

@@ -4,8 +4,8 @@ import unittest
 
 from claim_tables import HandMadeTables
 
-from claims import CLAIMS, spheres
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
+from paper.claims import CLAIMS, spheres
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED
 
 
 class Direction(HandMadeTables):

@@ -5,16 +5,15 @@ tests/layers/numbers_test.py compares the pages with the table."""
 import csv
 import math
 import os
-import sys
 
 import pytest
 
 import swirl
-from scenes import SOURCE
 
-sys.path.insert(0, os.path.join(SOURCE, "paper"))
-import crossing_law  # noqa: E402
-from chapters import cause  # noqa: E402
+from paper import crossing_law
+from paper.chapters import cause
+
+SOURCE = os.environ["SWIRL_SOURCE"]
 
 
 def rows(ending=""):

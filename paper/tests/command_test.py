@@ -117,7 +117,8 @@ class Figure5b(InFolder):
             [
                 "/usr/bin/python3",
                 "-B",
-                os.path.join(SOURCE, "paper", "draw.py"),
+                os.path.join(SOURCE, "paper"),
+                "draw",
                 self.path("figure_5b.csv"),
             ],
             check=True,

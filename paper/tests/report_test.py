@@ -9,21 +9,14 @@ from unittest import mock
 from claim_tables import SOURCE, HandMadeTables
 from program import read_rows
 
-import captions
-import catalogue
-import command
-import console
-import html_page
-import point_names
-import report
-import study
-from claims import CLAIMS
-from claims.catalogue import DENSE, OF_5B
-from claims.claim import Claim, Judged
-from claims.study import crossing_sentence
-from claims.wording import headline
-from first_page import main_results
-from verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, Judgement
+from paper import captions, catalogue, command, console, html_page, point_names, report, study
+from paper.claims import CLAIMS
+from paper.claims.catalogue import DENSE, OF_5B
+from paper.claims.claim import Claim, Judged
+from paper.claims.study import crossing_sentence
+from paper.claims.wording import headline
+from paper.summary import main_results
+from paper.verdicts import FAILS, HOLDS, IN_PART, UNDECIDED, Judgement
 
 
 class FirstPage(HandMadeTables):
@@ -385,7 +378,7 @@ class Figures(HandMadeTables):
         texts = captions.figure_texts({"figures": figures})
         rows = [report.figure_row(self.folder, figure, texts) for figure in figures]
         return html_page.rendered(
-            "page.html.j2", self.folder, title="t", blocks=[("figures", rows)]
+            "report.html.j2", self.folder, title="t", blocks=[("figures", rows)]
         )
 
     def test_every_figure_has_a_caption_or_a_question(self):
@@ -541,7 +534,7 @@ class Page(HandMadeTables):
         with open(os.path.join(self.folder, "figure_5b.png"), "wb") as file:
             file.write(b"\x89PNG\r\n\x1a\n" + struct.pack(">I4sII", 13, b"IHDR", 600, 200))
         blocks = report.contents(self.folder, about, report.judge(self.folder))
-        page = html_page.rendered("page.html.j2", self.folder, title=report.TITLE, blocks=blocks)
+        page = html_page.rendered("report.html.j2", self.folder, title=report.TITLE, blocks=blocks)
         self.assertIn("data:image/png;base64,iVBORw", page)
         self.assertIn("<figure class=wide>", page)
         self.assertIn("ϖ &lt; 0 &amp; more", page)
@@ -561,7 +554,7 @@ class Page(HandMadeTables):
         self.assertEqual(
             [page.index(part) for part in order], sorted(page.index(part) for part in order)
         )
-        text = html_page.rendered("page.md.j2", title=report.TITLE, blocks=blocks)
+        text = html_page.rendered("report.md.j2", title=report.TITLE, blocks=blocks)
         self.assertTrue(text.startswith(f"# {report.TITLE}\n\n## Abstract"))
         self.assertEqual(
             text.count("\n| "),
@@ -621,7 +614,7 @@ class Page(HandMadeTables):
             * 6,
         ):
             blocks = report.contents(self.folder, about, judged)
-        text = html_page.rendered("page.md.j2", title=report.TITLE, blocks=blocks)
+        text = html_page.rendered("report.md.j2", title=report.TITLE, blocks=blocks)
         self.assertLessEqual(len(text.split()), 6000)
         abstract = text.split("## Abstract")[1].split("## Results")[0]
         self.assertTrue(80 <= len(abstract.split()) <= report.ABSTRACT_WORDS, abstract)

@@ -27,9 +27,8 @@ AUTHORS = next(filter(os.path.isdir, FOLDERS), None)
 if AUTHORS is None:
     print("skipped: the authors' data are not at", *FOLDERS)
     sys.exit(77)
-sys.path.insert(0, os.path.join(SOURCE, "paper"))
 
-import authors_data  # noqa: E402
+from paper import authors_data
 
 SEEDS = 2
 NUMBERS = range(8, 45, 6)
