@@ -78,7 +78,14 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
         const Vec2 velocity =
             given.velocity ? Vec2{given.velocity->data()[2 * i], given.velocity->data()[2 * i + 1]}
                            : first_segment.velocity;
-        Disc disc{{p[0], p[1]}, velocity, angle[i], spin[i], 0.0, radius[i], mass[i], inertia[i]};
+        Disc disc{.position = {p[0], p[1]},
+                  .velocity = velocity,
+                  .angle = angle[i],
+                  .spin = spin[i],
+                  .time = 0.0,
+                  .radius = radius[i],
+                  .mass = mass[i],
+                  .inertia = inertia[i]};
         disc.can_spin = given.cannot_spin ? 1.0 - can_spin[i] : can_spin[i];
         discs.push_back(disc);
     }

@@ -40,20 +40,11 @@ class Reference {
         const auto [t, i, j] = event;
         if (i == size_) return end_segment();
         if (j == the_floor)
-            return {periods_, bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i, {}, {},
-                    0.0};
+            return event_of(bodies_.begin_to_roll(i), EventKind::begins_to_roll, i, i);
         if (event.is_with_wall())
-            return {periods_,
-                    t,
-                    EventKind::disc_wall,
-                    i,
-                    i,
-                    {},
-                    bodies_.collide_with_wall(i, t, segment()),
-                    0.0};
-        return {
-            periods_, t, EventKind::disc_disc, i, j, {}, bodies_.collide_pair(i, j, t, segment()),
-            0.0};
+            return event_of(t, EventKind::disc_wall, i, i,
+                            bodies_.collide_with_wall(i, t, segment()));
+        return event_of(t, EventKind::disc_disc, i, j, bodies_.collide_pair(i, j, t, segment()));
     }
 
     /// Simulation::change_surroundings().
@@ -68,8 +59,19 @@ class Reference {
     const Segment& segment() const { return path_.segments[segment_]; }
 
   private:
+    Event event_of(double clock, EventKind kind, std::uint32_t i, std::uint32_t j,
+                   const Impulse& impulse = {}) const {
+        return {.periods = periods_,
+                .clock = clock,
+                .kind = kind,
+                .i = i,
+                .j = j,
+                .normal = {},
+                .impulse = impulse,
+                .overlap = 0.0};
+    }
     Event end_segment() {
-        const Event event{periods_, segment().end, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+        const Event event = event_of(segment().end, EventKind::path_vertex, 0, 0);
         segment_ = (segment_ + 1) % path_.segments.size();
         if (segment_ == 0) ++periods_;
         bodies_.end_segment(event.clock, segment(), segment_ == 0);

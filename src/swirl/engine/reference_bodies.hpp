@@ -125,12 +125,19 @@ class ReferenceBodies {
         return state_.law.surface_of(state_.law.law.get(), surface, impact);
     }
     static Body body(const Disc& d) {
-        return {d.velocity, d.spin, d.radius, 1.0 / d.mass, d.inverse_inertia()};
+        return {.velocity = d.velocity,
+                .spin = d.spin,
+                .radius = d.radius,
+                .inverse_mass = 1.0 / d.mass,
+                .inverse_inertia = d.inverse_inertia()};
     }
     static SphereBody sphere_body(const Disc& d) {
-        return {{d.velocity, d.spin, d.radius, 1.0 / d.mass, 1.0 / d.inertia},
-                d.rolling_spin,
-                d.can_spin};
+        const Body planar{.velocity = d.velocity,
+                          .spin = d.spin,
+                          .radius = d.radius,
+                          .inverse_mass = 1.0 / d.mass,
+                          .inverse_inertia = 1.0 / d.inertia};
+        return {planar, d.rolling_spin, d.can_spin};
     }
     static void set_velocities(Disc& d, const Body& after) {
         d.velocity = after.velocity;

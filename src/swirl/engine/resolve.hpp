@@ -35,7 +35,11 @@ struct Discs {
     SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double) {
         const HotDisc& d = state.discs[i];
         const Species& species = state.species[d.species];
-        return {d.velocity, d.spin, d.radius, species.inverse_mass, species.inverse_inertia};
+        return {.velocity = d.velocity,
+                .spin = d.spin,
+                .radius = d.radius,
+                .inverse_mass = species.inverse_mass,
+                .inverse_inertia = species.inverse_inertia};
     }
     SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_body(velocity); }
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
@@ -84,17 +88,17 @@ struct Spheres {
         const HotDisc& d = state.discs[i];
         const Species& species = state.species[d.species];
         const SphereState& sphere = state.spheres[i];
-        return {d.position,
-                d.velocity,
-                state.cold(i).angle,
-                d.spin,
-                d.time,
-                d.radius,
-                species.mass,
-                species.inertia,
-                sphere.rolling_spin,
-                sphere.last_collision,
-                species.can_spin};
+        return {.position = d.position,
+                .velocity = d.velocity,
+                .angle = state.cold(i).angle,
+                .spin = d.spin,
+                .time = d.time,
+                .radius = d.radius,
+                .mass = species.mass,
+                .inertia = species.inertia,
+                .rolling_spin = sphere.rolling_spin,
+                .last_collision = sphere.last_collision,
+                .can_spin = species.can_spin};
     }
     /// Stores the state, and the motion that follows from it.
     SWIRL_INLINE static void store(EngineState& state, std::uint32_t i, const Disc& sphere) {
@@ -120,9 +124,12 @@ struct Spheres {
     SWIRL_INLINE static Body body_at(const EngineState& state, std::uint32_t i, double t) {
         const Disc d = moved_to(load(state, i), state.spheres[i].motion, t);
         const Species& species = state.species[state.discs[i].species];
-        return {{d.velocity, d.spin, d.radius, species.inverse_mass, species.inverse_inertia},
-                d.rolling_spin,
-                species.can_spin};
+        const swirl::Body planar{.velocity = d.velocity,
+                                 .spin = d.spin,
+                                 .radius = d.radius,
+                                 .inverse_mass = species.inverse_mass,
+                                 .inverse_inertia = species.inverse_inertia};
+        return {planar, d.rolling_spin, species.can_spin};
     }
     SWIRL_INLINE static Body wall(const Vec2& velocity) { return wall_for_spheres(velocity); }
     SWIRL_INLINE static double last_collision(const EngineState& state, std::uint32_t i) {
@@ -164,7 +171,14 @@ struct Spheres {
               set_rolling(load(state, i), state.spheres[i].motion, state.floor,
                           state.segments[state.segment].velocity));
         ++state.begun_to_roll;
-        return {state.periods, t, EventKind::begins_to_roll, i, i, {}, {}, 0.0};
+        return {.periods = state.periods,
+                .clock = t,
+                .kind = EventKind::begins_to_roll,
+                .i = i,
+                .j = i,
+                .normal = {},
+                .impulse = {},
+                .overlap = 0.0};
     }
 };
 
@@ -197,14 +211,14 @@ SWIRL_INLINE Event collide_discs(EngineState& state, std::uint32_t i, std::uint3
     Bodies::write_back(state, j, at_j, t, body_j);
     ++state.disc_disc;
     const double distance = square_root(dot(s, s));
-    return {state.periods,
-            t,
-            EventKind::disc_disc,
-            i,
-            j,
-            {s.x / distance, s.y / distance},
-            impulse,
-            body_i.radius + body_j.radius - distance};
+    return {.periods = state.periods,
+            .clock = t,
+            .kind = EventKind::disc_disc,
+            .i = i,
+            .j = j,
+            .normal = {s.x / distance, s.y / distance},
+            .impulse = impulse,
+            .overlap = body_i.radius + body_j.radius - distance};
 }
 
 /// Executes the collision of disc i with the wall at time t. The wall is a body of infinite mass
@@ -237,14 +251,14 @@ SWIRL_INLINE Event collide_with_wall(EngineState& state, std::uint32_t i, double
     Bodies::write_back(state, i, at, t, body);
     ++state.disc_wall;
     const double distance = square_root(dot(s, s));
-    return {state.periods,
-            t,
-            EventKind::disc_wall,
-            i,
-            i,
-            {s.x / distance, s.y / distance},
-            impulse,
-            distance - (state.container_radius - body.radius)};
+    return {.periods = state.periods,
+            .clock = t,
+            .kind = EventKind::disc_wall,
+            .i = i,
+            .j = i,
+            .normal = {s.x / distance, s.y / distance},
+            .impulse = impulse,
+            .overlap = distance - (state.container_radius - body.radius)};
 }
 
 /// The container begins its next segment. At the end of a period all discs are synchronised and all
@@ -254,7 +268,14 @@ template <class Bodies>
 SWIRL_INLINE Event start_next_segment(EngineState& state) {
     state.clock = state.segments[state.segment].end;
     ++state.path_vertex;
-    const Event event{state.periods, state.clock, EventKind::path_vertex, 0, 0, {}, {}, 0.0};
+    const Event event{.periods = state.periods,
+                      .clock = state.clock,
+                      .kind = EventKind::path_vertex,
+                      .i = 0,
+                      .j = 0,
+                      .normal = {},
+                      .impulse = {},
+                      .overlap = 0.0};
     const bool is_last = ++state.segment == state.segment_count;
     if (!is_last && !Bodies::change_with_segment(state)) return event;
     if (is_last) state.segment = 0;

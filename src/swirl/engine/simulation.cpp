@@ -131,8 +131,12 @@ EventCounts Simulation::events() const { return storage_->progress().events; }
 Progress Simulation::progress() const { return storage_->progress(); }
 LoopCounts Simulation::loop_counts() const {
     const EngineState& state = *storage_->state;
-    return {state.invalidated,   state.list_rebuilds,      state.overflows,
-            state.full_rebuilds, storage_->memory.bytes(), storage_->loop->width};
+    return {.invalidated = state.invalidated,
+            .list_rebuilds = state.list_rebuilds,
+            .overflows = state.overflows,
+            .full_rebuilds = state.full_rebuilds,
+            .bytes = storage_->memory.bytes(),
+            .width = storage_->loop->width};
 }
 
 Disc Simulation::disc(std::size_t i) const {
@@ -193,7 +197,14 @@ Snapshot Simulation::snapshot() const {
         const SphereState& sphere = state.spheres[i];
         s.set_floor_motion(i, sphere.rolling_spin, sphere.motion.acceleration);
     }
-    refresh(s, Event{0, 0.0, EventKind::path_vertex, 0, 0, {}, {}, 0.0});
+    refresh(s, Event{.periods = 0,
+                     .clock = 0.0,
+                     .kind = EventKind::path_vertex,
+                     .i = 0,
+                     .j = 0,
+                     .normal = {},
+                     .impulse = {},
+                     .overlap = 0.0});
     return s;
 }
 

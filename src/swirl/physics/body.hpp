@@ -29,7 +29,11 @@ SWIRL_INLINE constexpr double inverse_spin_inertia(const SphereBody& body) {
 
 /// The wall has infinite mass and does not turn.
 SWIRL_INLINE constexpr Body wall_body(const Vec2& velocity) {
-    return {velocity, 0.0, 0.0, 0.0, 0.0};
+    return {.velocity = velocity,
+            .spin = 0.0,
+            .radius = 0.0,
+            .inverse_mass = 0.0,
+            .inverse_inertia = 0.0};
 }
 SWIRL_INLINE constexpr SphereBody wall_for_spheres(const Vec2& velocity) {
     return {wall_body(velocity), {0.0, 0.0}};

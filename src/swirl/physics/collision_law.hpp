@@ -192,10 +192,10 @@ SWIRL_INLINE Friction<TangentialAndVertical> friction(const Surface& surface,
 }
 
 SWIRL_INLINE constexpr Impulse impulse(double normal, const Tangential& J, bool sticks) {
-    return {normal, J.t, sticks};
+    return {.normal = normal, .tangential = J.t, .sticks = sticks};
 }
 SWIRL_INLINE constexpr Impulse impulse(double normal, const TangentialAndVertical& J, bool sticks) {
-    return {normal, J.t, sticks, J.z};
+    return {.normal = normal, .tangential = J.t, .sticks = sticks, .vertical = J.z};
 }
 
 SWIRL_INLINE constexpr Tangential slip(const Body&, const Body&, const Vec2&, double horizontal) {

@@ -89,8 +89,14 @@ struct Snapshot {
     double orientation(std::size_t i) const { return angle[i] + (clock - held_at[i]) * spin[i]; }
 
     Disc disc(std::size_t i) const {
-        Disc d{{x[i], y[i]}, {vx[i], vy[i]}, angle[i], spin[i],
-               held_at[i],   radius[i],      mass[i],  inertia[i]};
+        Disc d{.position = {x[i], y[i]},
+               .velocity = {vx[i], vy[i]},
+               .angle = angle[i],
+               .spin = spin[i],
+               .time = held_at[i],
+               .radius = radius[i],
+               .mass = mass[i],
+               .inertia = inertia[i]};
         if (are_spheres()) d.rolling_spin = {spin_x[i], spin_y[i]};
         if (!can_spin.empty()) d.can_spin = can_spin[i];
         return d;

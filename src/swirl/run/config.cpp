@@ -297,14 +297,14 @@ InitialState make_initial_state(const RunConfig& c, const std::atomic<bool>* sto
     for (std::size_t i = 0; i < particles.size(); ++i) {
         if (stop && stop->load()) throw_interrupted("stopped before the first event.");
         const auto& [radius, mass, inertia, can_spin] = particles[i];
-        Disc disc{segment.start + (*centres)[i],
-                  segment.velocity + random.in_disc(max_initial_speed),
-                  0.0,
-                  0.0,
-                  0.0,
-                  radius,
-                  mass,
-                  inertia};
+        Disc disc{.position = segment.start + (*centres)[i],
+                  .velocity = segment.velocity + random.in_disc(max_initial_speed),
+                  .angle = 0.0,
+                  .spin = 0.0,
+                  .time = 0.0,
+                  .radius = radius,
+                  .mass = mass,
+                  .inertia = inertia};
         disc.can_spin = can_spin;
         state.discs.push_back(disc);
     }

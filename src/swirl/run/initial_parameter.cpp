@@ -49,7 +49,14 @@ InitialState scene_of(const RunConfig& c) {
     for (std::size_t i = 0; i < particles.size(); ++i) {
         const auto& [position, velocity, spin] = c.initial[i];
         const auto& [radius, mass, inertia, can_spin] = particles[i];
-        Disc disc{position, velocity, 0.0, spin, 0.0, radius, mass, inertia};
+        Disc disc{.position = position,
+                  .velocity = velocity,
+                  .angle = 0.0,
+                  .spin = spin,
+                  .time = 0.0,
+                  .radius = radius,
+                  .mass = mass,
+                  .inertia = inertia};
         disc.can_spin = can_spin;
         scene.discs.push_back(disc);
     }
