@@ -6,14 +6,25 @@ The program calls the modules in the same way (src/swirl/run/python_script.hpp).
 """
 
 import importlib
+import importlib.util
 import os
 import sys
 
 FOLDER = os.path.dirname(os.path.abspath(__file__))
-# Python looks for modules in this folder first, but they belong to a package.
-others = [path for path in sys.path if os.path.abspath(path) != FOLDER]
-sys.path[:] = [os.path.dirname(FOLDER), *others]
 
+
+def load_package():
+    """Makes this folder the package `paper`. Neither its modules nor files next to it can then
+    replace the modules of others."""
+    sys.path[:] = [path for path in sys.path if os.path.abspath(path) != FOLDER]
+    spec = importlib.util.spec_from_file_location(
+        "paper", os.path.join(FOLDER, "__init__.py"), submodule_search_locations=[FOLDER]
+    )
+    sys.modules["paper"] = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(sys.modules["paper"])
+
+
+load_package()
 from paper import console, optional_file  # noqa: E402
 
 

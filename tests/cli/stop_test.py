@@ -135,11 +135,11 @@ class Stop(InFolder):
         self.assertEqual(self.left_behind(), made)
 
     def test_while_figures_are_drawn(self):
-        shutil.copytree(os.path.join(SOURCE, "paper"), self.path("paper"))
-        with open(self.path("paper/style.py"), "a", encoding="utf-8") as script:
+        shutil.copytree(os.path.join(SOURCE, "paper"), self.path("figures"))
+        with open(self.path("figures/style.py"), "a", encoding="utf-8") as script:
             script.write(
                 "\n\ndef save(*_):\n    import os, time\n"
-                f"    open(os.path.join({self.path('paper')!r}, str(os.getpid())), 'w').close()\n"
+                f"    open(os.path.join({self.path('figures')!r}, str(os.getpid())), 'w').close()\n"
                 "    time.sleep(3600)\n"
             )  # beyond the time limit of this test
         for sent in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
@@ -154,16 +154,18 @@ class Stop(InFolder):
                 "--quiet",
                 "--out",
                 self.path("out"),
-                SWIRL_FIGURES=self.path("paper"),
+                SWIRL_FIGURES=self.path("figures"),
             )
-            while not (pids := [name for name in os.listdir(self.path("paper")) if name.isdigit()]):
+            while not (
+                pids := [name for name in os.listdir(self.path("figures")) if name.isdigit()]
+            ):
                 self.assertIsNone(started.process.poll())
                 time.sleep(0.01)
             code, errors = started.stop(sent)
             self.assertEqual(code, 130, errors)
             self.assertRegex(errors, r"error: [Ss]topped [^\n]*\.\n(hint: [^\n]+\n)?$")
             self.assertIsNone(processor_seconds(int(pids[0])))
-            os.remove(self.path(f"paper/{pids[0]}"))
+            os.remove(self.path(f"figures/{pids[0]}"))
 
     def test_hang_up_writes_a_checkpoint_like_other_signals(self):
         for sent in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM):

@@ -10,9 +10,9 @@
 
 namespace swirl {
 
-/// The folder in SWIRL_FIGURES, whose name must be `paper`, or share/swirl/paper above the program
-/// (installed) or next to it (build tree), if its owner is root or that of the program. No other
-/// folder is searched. Throws Failure if there is none.
+/// The folder in SWIRL_FIGURES, or share/swirl/paper above the program (installed) or next to it
+/// (build tree), if its owner is root or that of the program. No other folder is searched. Throws
+/// Failure if there is none.
 std::filesystem::path figures_folder();
 
 /// Throws Failure with the script's last message if it fails, Interrupted if it was stopped.
