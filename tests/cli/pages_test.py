@@ -88,6 +88,8 @@ PARSED = (
     ("/shared/", "the folder of a cluster"),
     ("--camera-fps", "tracks of the reader's camera"),
     ("--mu 0.2:0.2:1", "six searches"),
+    ("--mixture 10%:1.4,30%:1.4,50%:1.4", "searches that take as long as thirty others"),
+    ("--mu-wall 1 --cannot-spin 1", "a search that takes as long as ten others"),
     ("--checkpoint long.checkpoint", "continues a run that was stopped"),
     ("--compare", "writes a picture of the documentation"),
 )

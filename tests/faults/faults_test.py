@@ -503,8 +503,9 @@ class Faults(unittest.TestCase):
 
     def test_a_kill_does_not_mix_old_and_new_files(self):
         self.video_one()
-        self.replace_output(VIDEO_CALLS[0], [*VIDEO_CALLS[0], "--seed", "2"], 4)
-        self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--max-frames", "27"], 2)
+        self.replace_output(VIDEO_CALLS[0], [*VIDEO_CALLS[0], "--seed", "2"], 4 if EVERY else 2)
+        if EVERY:
+            self.replace_output(VIDEO_CALLS[2], [*VIDEO_CALLS[2], "--max-frames", "27"], 2)
 
     def test_failing_calls_while_a_recording_is_processed(self):
         self.record_one()
@@ -520,12 +521,12 @@ class Faults(unittest.TestCase):
         # Each call decodes or encodes a video. The sample has the kinds of calls that change files;
         # the reading ones are those of the other commands.
         self.video_one()
-        for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[:2]:
+        for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[:1]:
             self.fail_output(call, 1, CALLS if EVERY else ("pwrite", "rename"))
 
     def test_video_commands_succeed_after_a_kill(self):
         self.video_one()
-        for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[1:]:
+        for call in VIDEO_CALLS if EVERY else VIDEO_CALLS[1:2]:
             self.kill_output(call, 1)
 
     def inputs(self):
