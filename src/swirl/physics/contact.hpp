@@ -7,7 +7,9 @@
 namespace swirl {
 
 /// The coefficients of the collision law. Each is a number that a contact has in all collisions; a
-/// law of your own makes them depend on the impact (contact_law.hpp).
+/// law of your own makes them depend on the impact (contact_law.hpp). A collision that the TC model
+/// makes elastic has a restitution of 1 here (at_contact() in collision_law.hpp), so what changes
+/// the restitution further must leave 1 as it is.
 struct Surface {
     [[no_unique_address]] ByName by_name{};
     double mu = 1.0;                      // friction coefficient μ ≥ 0

@@ -43,7 +43,8 @@ using ParameterFormatter = std::string(const RunConfig& config);
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
 enum class ReadingOrder { first, second, last };
 
-/// True if a parameter is part of a written configuration.
+/// Whether a parameter is part of a written configuration. A new one is `not_default`: results, seeds
+/// of sweeps and checkpoints of runs without it then stay the same.
 enum class WrittenIf {
     always,       // null if it is not set
     set,          // omitted if it is not set
