@@ -214,9 +214,8 @@ class Prose(unittest.TestCase):
             with self.subTest(sentence):
                 self.assertLessEqual(len(words), LONGEST)
 
-    def test_the_readme_is_short_and_has_the_commands_of_a_new_machine(self):
+    def test_the_readme_has_the_commands_of_a_new_machine(self):
         text = (SOURCE / "README.md").read_text(encoding="utf-8")
-        self.assertLessEqual(len(text.splitlines()), 90)
         self.assertLess(text.index("!["), text.index("./swirl run --discs 48"))
         self.assertRegex(text, r"\./check  +# .*runs the tests")
         # One N_c of discs, with the name of its rate.
