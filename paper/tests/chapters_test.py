@@ -2,6 +2,7 @@
 
 import csv
 import math
+import os
 import types
 
 import numpy as np
