@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "container_paths.hpp"
+#include "page_measurements.hpp"
 #include "spin_map.hpp"
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
-#include "swirl/measure/observation.hpp"
 #include "swirl/measure/sample_times.hpp"
 #include "swirl/measure/slip.hpp"
 #include "swirl/measure/spin_frustration.hpp"
@@ -84,7 +84,7 @@ class Container {
         maps_are_shown_ = shown;
     }
     /// Null if they have never been shown.
-    const Observation* maps() const { return maps_ ? &*maps_ : nullptr; }
+    const PageObservation* maps() const { return maps_ ? &*maps_ : nullptr; }
     /// True if disc i is pinned by the paper's criterion, which is known some frames later. False
     /// in the first frames, and if no maps are shown.
     bool is_pinned(std::size_t i) const {
@@ -105,7 +105,7 @@ class Container {
     const std::vector<std::string>& measured() const { return measured_; }
     const ClusterRotation& rotation_in_warmup() { return run_.rotation_in_warmup(); }
     const ClusterRotation& rotation() { return run_.rotation_after_warmup(); }
-    const Observation& observation() const { return observation_; }
+    const PageObservation& observation() const { return observation_; }
     /// Turns of the cluster since the averages began, or during the warm-up since its start: the
     /// integral of the rotation rate, by the same samples as its average by time. So turns divided
     /// by periods are the average. The movies count turns in the same way (page.hpp of the layer
@@ -257,7 +257,7 @@ class Container {
 
     const RunConfig config_;
     std::vector<std::string> measured_;
-    Observation observation_;
+    PageObservation observation_;
     CoreRun run_;
     Snapshot shown_;
     Event passed_{};
@@ -270,7 +270,7 @@ class Container {
     SpinFrustration frustration_{0.1, 1};
     std::vector<ContactMark> contacts_;
     PinnedFrames pinned_;
-    std::optional<Observation> maps_;
+    std::optional<PageObservation> maps_;
     bool maps_are_shown_ = false;
     std::int64_t maps_begin_ = 0;  // the period
     SpinMap spins_;

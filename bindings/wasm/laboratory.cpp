@@ -77,7 +77,7 @@ std::vector<std::string> measurements_in(std::string_view list) {
     std::vector<std::string> names;
     while (!list.empty()) {
         const std::size_t comma = std::min(list.find(','), list.size());
-        if (find_measurement(list.substr(0, comma))) names.emplace_back(list.substr(0, comma));
+        if (PageObservation::has(list.substr(0, comma))) names.emplace_back(list.substr(0, comma));
         list.remove_prefix(std::min(comma + 1, list.size()));
     }
     return names;
@@ -524,7 +524,7 @@ EXPORTED(show_maps) void show_maps(std::uint32_t shown) {
 /// Stores the current report of the maps; column() reads it.
 EXPORTED(report) void report() {
     reports.clear();
-    if (const Observation* maps = simulated->maps()) reports = maps->report();
+    if (const PageObservation* maps = simulated->maps()) reports = maps->report();
 }
 
 /// Selects a column of the stored report, e.g. "density//by_time". Returns its number of values; 0

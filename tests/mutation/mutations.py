@@ -37,7 +37,7 @@ SNAPSHOT = "src/swirl/physics/snapshot.hpp"
 BALL = "src/swirl/physics/rolling_ball.hpp"
 PINNED_HPP = "src/swirl/measure/pinned_loose.hpp"
 RESIDENCES_HPP = "src/swirl/measure/wall_residence.hpp"
-OBSERVATION = "src/swirl/measure/observation.hpp"
+PINNED_FRAMES = "src/swirl/measure/pinned_frames.hpp"
 TIMES = "src/swirl/measure/sample_times.hpp"
 FIELDS = "src/swirl/measure/fields.hpp"
 
@@ -721,7 +721,7 @@ MUTATIONS = [
         "the next sample is due in another period",
     ),
     (
-        OBSERVATION,
+        PINNED_FRAMES,
         "recent_(delay() + 1)",
         "recent_(delay() - 1)",
         "the frame of which the pinned discs are known is no longer stored",

@@ -6,12 +6,11 @@
 #include <cmath>
 #include <new>
 
-#include "swirl/measure/observation.hpp"
+#include "swirl/measure/strided.hpp"
 #include "swirl/physics/mirrored.hpp"
 #include "swirl/run/budget.hpp"
 #include "swirl/run/collapse_guard.hpp"
 #include "swirl/run/particle_sizes.hpp"
-#include "swirl/run/period_series.hpp"
 
 namespace swirl {
 namespace {
@@ -27,10 +26,10 @@ int events_between_checks(std::size_t discs) {
 
 }  // namespace
 
-CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation,
+CoreRun::CoreRun(const RunConfig& config, const InitialState& begin, RunObserver observer,
                  const Progress& progress, const Tuning& tuning)
     : config_(config),
-      observation_(observation),
+      observer_(observer),
       tuning_(tuning),
       simulation_(begin, progress, tuning),
       ramps_(begin.path),
@@ -83,7 +82,7 @@ void CoreRun::sample_by_time(double clock) {
     if (!samples_observations()) return;
     while (observation_times_.next(snapshot_, path(), clock)) {
         const Snapshot& now = observed();
-        if (observes()) observation_->sample(now);
+        if (observes()) observer_.sample(now);
         series_.sample_measured(now);
     }
 }
@@ -102,7 +101,7 @@ void CoreRun::pass_event() {
 void CoreRun::pass_to_measurements() {
     const Event event = config_.turns_clockwise() ? mirrored(event_) : event_;
     const Snapshot& after = observed();
-    if (observes_events()) observation_->sample(event, after);
+    if (observes_events()) observer_.sample(event, after);
     if (series_.samples_events()) series_.sample_measured(event, after);
 }
 
@@ -117,7 +116,7 @@ const Snapshot& CoreRun::observed() {
 /// skipped.
 bool CoreRun::samples_observations() const { return observes() || series_.measures(); }
 
-bool CoreRun::observes_events() const { return observes() && observation_->samples_events(); }
+bool CoreRun::observes_events() const { return observes() && observer_.samples_events(); }
 
 std::uint64_t CoreRun::execute_events() {
     const bool each_event = by_event_.samples_every_event() || observes_events() ||
@@ -177,7 +176,8 @@ void CoreRun::update_snapshot() {
 /// A run with a given number of events is also checked at its end; one with a number of periods is
 /// checked at the end of each period (begin_period).
 int CoreRun::events_until_check() const {
-    const bool visits_all_discs = observation_ || series_.exists() || config_.events_per_sample > 0;
+    const bool visits_all_discs =
+        observer_.exists() || series_.exists() || config_.events_per_sample > 0;
     const int at_most =
         complete() ? 0 : events_between_checks(visits_all_discs ? simulation_.size() : 1);
     if (config_.periods) return at_most;
@@ -239,7 +239,7 @@ void CoreRun::begin_period() {
              .events = events});
     rotation().close_block(by_event_.interval(), weight_by_time);
     warm_up_.spin().close_block();
-    if (observes()) observation_->close_block();
+    if (observes()) observer_.close_block();
     if (warm_up_.ends(config_, simulation_.periods(), fraction())) {
         result_.warmup = simulation_.periods();
         result_.warmup_events = simulation_.events();

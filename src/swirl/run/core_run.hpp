@@ -19,12 +19,11 @@
 #include "swirl/run/event_sampler.hpp"
 #include "swirl/run/ramp_schedule.hpp"
 #include "swirl/run/result.hpp"
+#include "swirl/run/run_observer.hpp"
 #include "swirl/run/run_series.hpp"
 #include "swirl/run/warm_up.hpp"
 
 namespace swirl {
-
-class Observation;
 
 /// Event by event:
 ///
@@ -35,13 +34,13 @@ class Observation;
 ///     }
 class CoreRun {
   public:
-    /// `observation` measures from the end of the warm-up on, and must outlive the run. Null: only
-    /// the rotation is measured. `begin` is in the surroundings of its period (ramp.hpp).
-    CoreRun(const RunConfig& config, const InitialState& begin, Observation* observation = nullptr,
+    /// `observer` measures from the end of the warm-up on. Null: only the rotation is measured.
+    /// `begin` is in the surroundings of its period (ramp.hpp).
+    CoreRun(const RunConfig& config, const InitialState& begin, RunObserver observer = nullptr,
             const Progress& progress = {}, const Tuning& tuning = {});
     /// Also adds every period to a series, which must outlive the run. Call it before the first
     /// event.
-    void add_periods_to(PeriodSeries* series) { series_.set(series); }
+    void add_periods_to(FollowsPeriods* series) { series_.set(series); }
 
     /// Executes the next event. The snapshot keeps the state before it until pass_event().
     void execute_event();
@@ -122,11 +121,11 @@ class CoreRun {
         by_event_.fields(visit);
         if (!config_.ramps.empty()) visit(snapshot_.periods_at_change, snapshot_.time_at_change);
         if (!snapshot_.turned.empty()) visit(std::span(snapshot_.turned));
-        if (observation_) visit(observation_times_);
+        if (observer_.exists()) visit(observation_times_);
     }
 
   private:
-    bool observes() const { return is_warm() && observation_; }
+    bool observes() const { return is_warm() && observer_.exists(); }
     bool samples_observations() const;
     bool observes_events() const;
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
@@ -147,7 +146,7 @@ class CoreRun {
     ClusterRotation& rotation() { return warm_up_.rotation(); }
 
     RunConfig config_;
-    Observation* observation_;
+    RunObserver observer_;
     RunSeries series_;
     const Tuning tuning_;
     Simulation simulation_;

@@ -16,7 +16,6 @@
 // A value that is not available is NaN, and an empty cell in the file.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -28,6 +27,7 @@
 #include "swirl/measure/m_frame.hpp"
 #include "swirl/measure/observation.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/run_series.hpp"
 #include "swirl/statistics/fluctuations.hpp"
 
 namespace swirl {
@@ -46,31 +46,19 @@ struct SeriesAverage {
     Fluctuations fluctuations;
 };
 
-/// The averages of one period that a run itself has at its end.
-struct PeriodAverages {
-    std::int64_t period;
-    bool is_counted;
-    std::array<double, rotation_rates.size()> rotation, rotation_weights;
-    double spin;
-    std::uint64_t events;  // count since the start of the run
-};
-
-class PeriodSeries {
+class PeriodSeries final : public FollowsPeriods {
   public:
     /// `measurements`: names of measurement_kinds().
     PeriodSeries(const RunConfig& config, std::vector<std::string> measurements);
 
-    /// Call this at the sample times of the rotation.
-    void sample(const Snapshot& snapshot);
-    /// If measures(), call the first at the sample times of the run's measurements. If
-    /// samples_events(), call the second after every event.
-    void sample_measured(const Snapshot& snapshot) { measured_.sample(snapshot); }
-    void sample_measured(const Event& event, const Snapshot& after) {
+    void sample(const Snapshot& snapshot) override;
+    void sample_measured(const Snapshot& snapshot) override { measured_.sample(snapshot); }
+    void sample_measured(const Event& event, const Snapshot& after) override {
         measured_.sample(event, after);
     }
-    bool measures() const { return !measured_.empty(); }
-    bool samples_events() const { return measured_.samples_events(); }
-    void add_period(const PeriodAverages& averages);
+    bool measures() const override { return !measured_.empty(); }
+    bool samples_events() const override { return measured_.samples_events(); }
+    void add_period(const PeriodAverages& averages) override;
 
     const std::vector<SeriesColumn>& columns() const { return columns_; }
     std::size_t periods() const { return values_.size() / columns_.size(); }
