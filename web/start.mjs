@@ -1,7 +1,7 @@
 // The parameters that `swirl lab` got as options: checks them with the engine, and prints them for the page.
 //
 //     node start.mjs ENGINE.wasm NAME=VALUE…             the query of the page's address
-//     node start.mjs --page PAGE.html QUERY              the page that starts with this query (src/start.ts)
+//     node start.mjs --page PAGE.html QUERY              the page that starts with this query (src/texts/start.ts)
 //
 // Exits with 2 and the engine's message for a value that is not valid.
 import {readFileSync, writeSync} from "node:fs";
@@ -30,7 +30,8 @@ if (mode === "--page") {
     const noSystem = new Proxy({}, {get: () => () => 52});
     const memory = () => engine.memory.buffer;
     const reject = (at, size) => {
-        process.stderr.write(`error: ${Buffer.from(memory(), at, size).toString()}\n`);
+        const {text} = JSON.parse(Buffer.from(memory(), at, size).toString());
+        process.stderr.write(`error: ${text}\n`);
         process.exit(2);
     };
     const module = await WebAssembly.compile(readFileSync(mode));

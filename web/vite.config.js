@@ -3,7 +3,7 @@ import {defineConfig} from "vite";
 import {viteSingleFile} from "vite-plugin-singlefile";
 import {createHash} from "node:crypto";
 import {readFileSync} from "node:fs";
-import english from "./src/texts.en.json" with {type: "json"};
+import english from "./src/texts/texts.en.json" with {type: "json"};
 
 const pageTexts = english.page;
 
@@ -17,7 +17,7 @@ const texts = {
             html.replace(/\{\{(\w+)\}\}/g, (_, name) => {
                 if (!(name in pageTexts))
                     throw new Error(
-                        `index.html has {{${name}}}, but src/texts.en.json has no such text.`,
+                        `index.html has {{${name}}}, but src/texts/texts.en.json has no such text.`,
                     );
                 return pageTexts[name]
                     .replace(/&/g, "&amp;")

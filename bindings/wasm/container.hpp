@@ -130,9 +130,9 @@ class Container {
 
     /// The error message with which a run of the command line would end here. After it there are no
     /// more events.
-    const std::optional<std::string>& problem() const { return problem_; }
+    const std::optional<Message>& problem() const { return problem_; }
     /// The same message if the run ends with this event.
-    std::optional<std::string> problem_at_the_end() const {
+    std::optional<Message> problem_at_the_end() const {
         return problem_ || is_by_hand(path()) ? problem_ : run_.problem_at_the_end();
     }
 
@@ -276,7 +276,7 @@ class Container {
     SpinMap spins_;
     bool found_ = false;
     double passed_clock_ = 0.0;  // clock of the last passed event
-    std::optional<std::string> problem_;
+    std::optional<Message> problem_;
 };
 
 }  // namespace swirl

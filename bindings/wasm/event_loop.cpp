@@ -13,7 +13,7 @@
 namespace swirl {
 
 // Never called: this program only times valid configurations.
-void throw_usage_error(const std::string&) { __builtin_trap(); }
+void throw_usage_error(const Message&) { __builtin_trap(); }
 void throw_interrupted(const std::string&) { __builtin_trap(); }
 
 namespace {

@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
 #include <cmath>
 #include <string>
 #include <string_view>
 
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/run/message.hpp"
 #include "swirl/statistics/block_average.hpp"
 
 namespace swirl {
@@ -47,6 +49,45 @@ class JsonObject {
   private:
     std::string text_;
 };
+
+/// The sentences of a message: [{"code": "not_a_number", "values": {"name": "--mu", "text": "x"}}]
+inline std::string sentences_json(const Message& message);
+
+inline std::string value_json(const MessageValue& value) {
+    switch (value.kind) {
+        case MessageValue::Kind::phrase:
+            return sentences_json(value.phrase.front());
+        case MessageValue::Kind::words:
+            return JsonObject().add("words", json_text(value.text)).text();
+        case MessageValue::Kind::number:
+            // "inf" is no number of JSON.
+            if (std::isdigit(static_cast<unsigned char>(value.text.back()))) return value.text;
+            break;
+        case MessageValue::Kind::text:
+            break;
+    }
+    return json_text(value.text);
+}
+
+inline std::string sentences_json(const Message& message) {
+    std::string json;
+    for (const auto& [sentence, values] : message.parts()) {
+        JsonObject filled;
+        for (const MessageValue& value : values) filled.add(value.name, value_json(value));
+        json += json.empty() ? "" : ",";
+        json +=
+            JsonObject().add("code", json_text(sentence.code)).add("values", filled.text()).text();
+    }
+    return '[' + json + ']';
+}
+
+/// The sentences with their English text, which is that of the command line.
+inline std::string message_json(const Message& message) {
+    return JsonObject()
+        .add("text", json_text(message.english()))
+        .add("sentences", sentences_json(message))
+        .text();
+}
 
 inline std::string estimate_json(const Estimate& e) {
     return JsonObject()

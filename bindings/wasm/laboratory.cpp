@@ -4,8 +4,8 @@
 //
 // Texts go through one buffer. The page writes a text there before a call, and reads the answer
 // there after it. A function that answers with a text returns its length. If the command line would
-// end with an error message, the page's `reject` gets it. That function throws in JavaScript, so
-// the stack of this module is lost: after it the page creates a new instance.
+// end with an error message, the page's `reject` gets it as JSON: its text in English, and the codes
+// and values of its sentences. That function throws in JavaScript, so the stack of this module is lost: after it the page creates a new instance.
 //
 // Only this folder depends on the page. The engine, measurements and parameters are the same files
 // as in all other programs.
@@ -46,8 +46,12 @@ extern "C" {
 
 namespace swirl {
 
-void throw_usage_error(const std::string& message) { page_reject(message.data(), message.size()); }
-void throw_interrupted(const std::string& message) { throw_usage_error(message); }
+void throw_usage_error(const Message& message) {
+    const std::string json = message_json(message);
+    page_reject(json.data(), json.size());
+}
+// Never called, because nothing stops the page's engine.
+void throw_interrupted(const std::string&) { __builtin_trap(); }
 
 namespace {
 
@@ -101,11 +105,9 @@ Request parse_request(std::string_view lines) {
     RunConfig config = resolve(without_length);
     // The page shows maps in the M-frame.
     if (!has_m_frame(config) || config.turns_clockwise())
-        throw_usage_error("the page needs a path that is nearly a circle, counter-clockwise.");
+        throw_usage_error(Message("page_needs_circle"));
     if (config.frictionless == Frictionless::boundary || config.frictionless == Frictionless::bulk)
-        throw_usage_error(
-            "the page has no --frictionless boundary or bulk.\n"
-            "hint: use the program swirl.");
+        throw_usage_error(Message("page_without_frictionless"));
     return {std::move(config), std::move(measured), std::move(given)};
 }
 
@@ -399,11 +401,11 @@ EXPORTED(advance_to) std::uint32_t advance_to(double time, std::uint32_t maximum
     return simulated->advance_to(time, maximum);
 }
 
-/// The error message with which a run of the command line would end here. `at_the_end` is 1 if this
-/// is the last event. Empty if there is no problem.
+/// JSON of the error message with which a run of the command line would end here (message_json).
+/// `at_the_end` is 1 if this is the last event. Empty if there is no problem.
 EXPORTED(problem) std::uint32_t problem(std::uint32_t at_the_end) {
-    return answer(
-        (at_the_end ? simulated->problem_at_the_end() : simulated->problem()).value_or(""));
+    const auto found = at_the_end ? simulated->problem_at_the_end() : simulated->problem();
+    return answer(found ? message_json(*found) : "");
 }
 
 /// The state at `time`, between the last event and the next, in the lab frame. Head: time, periods,

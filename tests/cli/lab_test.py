@@ -66,7 +66,10 @@ const engineOf = async (path) => {
     return () => {
         let out;
         const read = (at, size) => Buffer.from(out.memory.buffer, at, size).toString();
-        const reject = (at, size) => { throw new Error(read(at, size)); };
+        const reject = (at, size) => {
+            const message = JSON.parse(read(at, size));
+            throw Object.assign(new Error(message.text), {said: message});
+        };
         out = new WebAssembly.Instance(module,
             {wasi_snapshot_preview1: noSystem, page: {reject}}).exports;
         out._initialize();
@@ -92,6 +95,7 @@ engineOf(process.argv[1]).then(async (make) => {
                     if (["change", "keeps_discs"].includes(name)) engine.write(values.pop());
                     answers.push(engine.out[name](...values));
                 }
+                const problem = JSON.parse(engine.answer(engine.out.problem(1)) || "null");
                 const seen = answers.length ? engine.out.frame(steps.at(-1)[1]) : 0;
                 const frame = new Float64Array(engine.out.memory.buffer, seen,
                                                seen ? engine.out.frame_size() : 0);
@@ -103,11 +107,11 @@ engineOf(process.argv[1]).then(async (make) => {
                     turns: [...new Float64Array(engine.out.memory.buffer, engine.out.turns(), 2)],
                     cause: [...new Float64Array(engine.out.memory.buffer, engine.out.cause(), 10)],
                     contacts: engine.out.contacts() / 4,
-                    problem: engine.answer(engine.out.problem(1)),
+                    problem: problem ? problem.text : "", message: problem,
                     command: engine.answer(engine.out.command()),
                     asked: engine.asked});
             } catch (error) {
-                said.push({rejected: error.message});
+                said.push({rejected: error.message, message: error.said});
             }
         }
         const table = make();
@@ -860,8 +864,8 @@ class Laboratory(ProgramTest):
         return folder
 
     def messages(self):
-        """Error messages of the engine that need several values; panels.mjs tries each parameter
-        alone."""
+        """Error messages of the engine that need several values, with the codes of their sentences;
+        panels.mjs tries each parameter alone."""
         said = self.engine(
             [
                 {"given": wrong, "events": 1}
@@ -891,7 +895,7 @@ class Laboratory(ProgramTest):
                 )
             ]
         )["said"]
-        return [one["rejected"] for one in said] + [one["problem"] for one in collapsed]
+        return [one["message"] for one in said + collapsed]
 
     def test_the_units_of_discovery_explorer_lesson_and_files(self):
         folder = self.files()

@@ -36,7 +36,7 @@ ALLOWED = {
         "examples/custom_measurement.ipynb",
         "scatter",
     ): "shows that the scatter of runs agrees with their errors",
-    ("web/src/estimates.ts", "student"): "the factor for four quarters of the run on display",
+    ("web/src/engine/estimates.ts", "student"): "the factor for four quarters of the run on display",
 }
 
 

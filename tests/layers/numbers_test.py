@@ -133,7 +133,7 @@ class Numbers(unittest.TestCase):
             "docs/results/paper.md",
             "docs/tutorials/first_simulation.md",
             "docs/how-to/teach.md",
-            "web/src/lesson.ts",
+            "web/src/panels/lesson.ts",
         ):
             self.assertIn(N_C, (SOURCE / name).read_text(encoding="utf-8"), name)
 

@@ -230,7 +230,7 @@ class Prose(unittest.TestCase):
             text = (SOURCE / name).read_text(encoding="utf-8")
             self.assertEqual(re.search(r"(?<!!)\[[^\]]*\]\(([^)]*)\)", text)[1], first, name)
         for language in ("en", "de"):
-            text = (SOURCE / f"web/src/texts.{language}.json").read_text(encoding="utf-8")
+            text = (SOURCE / f"web/src/texts/texts.{language}.json").read_text(encoding="utf-8")
             self.assertRegex(text, r'"pages": \{\s*"explanation/why": ')
 
     def test_the_reason_of_the_effect_is_short_and_has_pictures(self):

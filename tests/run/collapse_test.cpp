@@ -52,8 +52,8 @@ TEST(Collapse, ThresholdIsEventsPerDiscAndPeriod) {
 }
 
 TEST(Collapse, TextDoesNotCountZeroPeriods) {
-    EXPECT_EQ(duration_text({20'000, 0.99e-4}), "the last 20000 events took only 9.9e-05 periods");
-    EXPECT_EQ(duration_text({500, 0.0}), "the last 500 events took no measurable time");
+    EXPECT_EQ(duration_of({20'000, 0.99e-4}).english(), "only 9.9e-05 periods");
+    EXPECT_EQ(duration_of({500, 0.0}).english(), "no measurable time");
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 // The page's address: the parameters, a number of events to run to, and the points of the plot. It
 // is all that the page stores, so that two tabs have nothing in common, and nothing can be full or
 // blocked.
-import type {Laboratory} from "./laboratory";
-import {addressOf} from "./share";
-import {isEmbedded, pageEntry, setPageEntry, startParameters} from "./start";
-import {fill, texts} from "./texts";
+import type {Laboratory} from "./engine/laboratory";
+import {addressOf} from "./dish/share";
+import {isEmbedded, pageEntry, setPageEntry, startParameters} from "./texts/start";
+import {fill, texts} from "./texts/texts";
 
 const maxEvents = 1e7,
     maxBeside = 300;

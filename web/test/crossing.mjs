@@ -3,24 +3,13 @@
 // cores: the page begins the runs of a round in this order, and the next round when all have ended.
 import {mkdtempSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
-import {dirname, join} from "node:path";
-import {fileURLToPath, pathToFileURL} from "node:url";
-import {build} from "esbuild";
+import {join} from "node:path";
+import {loader} from "./sources.mjs";
 
 const [wasm, ...words] = process.argv.slice(2),
     given = Object.fromEntries(words.map((word) => word.split("=")));
 const folder = mkdtempSync(join(tmpdir(), "swirl-crossing-"));
-const load = async (name) => {
-    const outfile = join(folder, `${name}.mjs`);
-    await build({
-        entryPoints: [join(dirname(fileURLToPath(import.meta.url)), "..", "src", `${name}.ts`)],
-        bundle: true,
-        format: "esm",
-        outfile,
-        logLevel: "error",
-    });
-    return import(pathToFileURL(outfile).href);
-};
+const load = loader(folder);
 try {
     const {Engine, perRate} = await load("engine"),
         {searchCrossing, usualSearch} = await load("crossing_search"),

@@ -159,6 +159,21 @@ for (const [x, y] of ofPage.discs) {
 await page.click("#step");
 await page.waitForFunction(() => document.getElementById("event-count").textContent === "20001");
 
+// A paused page asks for no animation frames: none in the time in which the browser makes twenty.
+const asked = () =>
+    page.evaluate(async () => {
+        const ask = globalThis.requestAnimationFrame;
+        let count = 0;
+        globalThis.requestAnimationFrame = (draw) => {
+            ++count;
+            return ask(draw);
+        };
+        for (let k = 0; k < 20; ++k) await new Promise((drawn) => ask(drawn));
+        globalThis.requestAnimationFrame = ask;
+        return count;
+    });
+assert.equal(await asked(), 0);
+
 // A hundred more events one by one; each time the page also determines the next one.
 await page.evaluate(() => {
     for (let k = 0; k < 100; ++k) document.getElementById("step").click();

@@ -2,30 +2,19 @@
 // PARAMETERS.json SWIRL.wasm [FOLDER]. PARAMETERS is the engine's table; FOLDER has files of the
 // command line. Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
-import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
+import {mkdtempSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
-import {dirname, join} from "node:path";
-import {fileURLToPath, pathToFileURL} from "node:url";
-import {build} from "esbuild";
+import {join} from "node:path";
 import {runsOf} from "./background.mjs";
+import {filesWith, loader, textOf} from "./sources.mjs";
 
 const [table, wasm, files] = process.argv.slice(2);
 const parameters = JSON.parse(readFileSync(table, "utf-8"));
-const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
 const folder = mkdtempSync(join(tmpdir(), "swirl-panels-"));
-const load = async (name) => {
-    const outfile = join(folder, `${name}.mjs`);
-    await build({
-        entryPoints: [join(sources, `${name}.ts`)],
-        bundle: true,
-        format: "esm",
-        outfile,
-        logLevel: "error",
-        loader: {".gz": "empty"},
-        external: ["./worker?worker&inline", "*.gz?url"],
-    });
-    return import(pathToFileURL(outfile).href);
-};
+const load = loader(folder, {
+    loader: {".gz": "empty"},
+    external: ["./worker?worker&inline", "*.gz?url"],
+});
 
 /** All keys of an object with those of its objects. */
 const shapeOf = (value, path = "") =>
@@ -45,9 +34,7 @@ const sameInBoth =
 
 try {
     // Both languages have the same keys, and their texts the same numbers and names.
-    const [en, de] = ["en", "de"].map((each) =>
-        JSON.parse(readFileSync(join(sources, `texts.${each}.json`), "utf-8")),
-    );
+    const [en, de] = ["en", "de"].map((each) => JSON.parse(textOf(`texts.${each}.json`)));
     const [english, german] = [en, de].map((each) => new Map(shapeOf(each)));
     // The English names and descriptions of parameters come from the engine.
     const ofParameters = (key) => /^\.texts\.(?:labels|descriptions)\b/.test(key);
@@ -81,12 +68,9 @@ try {
             untranslated.push(`${key}: ${a}`);
     }
     // Each text with values is filled where the page uses it, with exactly these values.
-    const sourcesOf = Object.fromEntries(
-        readdirSync(sources)
-            .filter((each) => each.endsWith(".ts"))
-            .map((each) => [each, readFileSync(join(sources, each), "utf-8")]),
-    );
-    const all = Object.values(sourcesOf).join("\n");
+    const all = filesWith(".ts")
+        .map((each) => readFileSync(each, "utf-8"))
+        .join("\n");
     for (const [key, text] of english) {
         const names = [...new Set(valuesIn(String(text)).map((each) => each.slice(1)))],
             name = key.split(".").at(-1);
@@ -198,12 +182,62 @@ try {
     ); // Student's t of two values
     assert.deepEqual([ofClass.get(8).periods, ofClass.get(48).error], [400, 0.01]);
 
-    // Error messages of the engine are in German, with their numbers.
-    const {translated} = await load("texts");
-    const sudden = ["with restitution 0.5 the discs …", "friction has …"].map(
-        (reason) =>
-            `the last 500 events took no measurable time (collapse after 1.25 periods): ${reason}`,
+    // Each sentence of the engine is in German, too, with the same values, numbers and options.
+    const table = readFileSync(
+        new URL("../../src/swirl/run/sentences.hpp", import.meta.url),
+        "utf-8",
     );
+    const sentences = Object.fromEntries(
+        [...table.matchAll(/^ {4}\{"(\w+)",\s*((?:"(?:[^"\\]|\\.)*"\s*)+)\}/gm)].map(
+            ([, code, parts]) => [
+                code,
+                parts
+                    .match(/"(?:[^"\\]|\\.)*"/g)
+                    .map((each) => JSON.parse(each))
+                    .join(""),
+            ],
+        ),
+    );
+    assert.equal(Object.keys(sentences).length, table.match(/^ {4}\{"/gm).length);
+    const germanOf = JSON.parse(textOf("texts.engine.de.json"));
+    assert.ok(Object.keys(sentences).length > 90);
+    assert.deepEqual(Object.keys(germanOf).sort(), Object.keys(sentences).sort());
+    const optionsIn = (text) => text.match(/--[a-z-]+/g) ?? [];
+    for (const [code, a] of Object.entries(sentences)) {
+        const b = germanOf[code];
+        const values = [a, b].map((text) => [...new Set(valuesIn(text))].sort());
+        assert.deepEqual(values[1], values[0], `${code}: '${b}' and '${a}' have other values`);
+        assert.equal(/\nTipp: /.test(b), /\nhint: /.test(a), `${code}: only one has a hint`);
+        for (const option of optionsIn(b))
+            assert.ok(optionsIn(a).includes(option) || option === "--period", `${code}: ${option}`);
+        assert.ok(b !== a || code === "without_code", code);
+    }
+    // Values in German: a decimal comma, words, phrases, and a number that has an exponent.
+    const {inGerman} = await load("texts");
+    const said = (code, values) =>
+        inGerman({text: "", sentences: [{code, values}]}, de.texts.labels);
+    assert.equal(
+        said("out_of_range", {name: "--mu", value: -0.5, from: 0, to: 1e18}),
+        "Reibung ist -0,5, muss aber eine Zahl von 0 bis 1e+18 sein.",
+    );
+    assert.equal(
+        said("not_a_choice", {name: "--body", text: "x", choices: {words: "a\nb\nc"}}),
+        "Körper ist „x“, muss aber a, b oder c sein.",
+    );
+    assert.equal(
+        said("mixture_of_none", {percent: 0.1, discs: 1, body: [{code: "sphere", values: {}}]}),
+        "Zweite Sorte: Der Anteil ist 0,1 %; das ist keine von 1 Kugel.\n" +
+            "Tipp: Nimm einen größeren Anteil oder mehr Kugeln.",
+    );
+    // The advice against a decimal comma does not show one.
+    assert.match(said("decimal_point", {whole: "0", decimals: "5"}), /statt des Kommas: 0\.5\. /);
+
+    // Messages of the engine, in German with their numbers.
+    const numbersIn = (sentences) =>
+        sentences
+            .flatMap(({values}) => Object.values(values))
+            .flatMap((value) => (Array.isArray(value) ? numbersIn(value) : [value]))
+            .filter((value) => typeof value === "number");
     const rejected = new Map();
     // Every parameter that the page shows, of four scenes, with values that most of them cannot
     // have; one message of each form.
@@ -237,8 +271,9 @@ try {
                 try {
                     if (name !== "discs" || Number(value) !== 1000000)
                         new Engine(module).begin({discs: "12", ...scene, [name]: value}); // it would place them
-                } catch ({message}) {
-                    rejected.set(message.replace(/'.*?'/g, "").replace(/[-\d.e+]+/g, "#"), message);
+                } catch ({message, said: sentence}) {
+                    const form = message.replace(/'.*?'/g, "").replace(/[-\d.e+]+/g, "#");
+                    rejected.set(form, sentence);
                 }
     assert.ok(rejected.size > 40, `only ${rejected.size} messages`);
     // A line break or an invisible character in a value could add or hide a part of the command.
@@ -256,19 +291,17 @@ try {
         );
     for (const message of [
         ...JSON.parse(readFileSync(join(files, "messages.json"), "utf-8")),
-        ...sudden,
         ...rejected.values(),
     ]) {
-        const shown = translated(message, de.texts.labels),
-            of = (text) =>
-                text.replace(/(\d),(?=\d)/g, "$1.").match(/\d+(?:\.\d+)?(?:e[-+]?\d+)?/g) ?? [];
+        const shown = inGerman(message, de.texts.labels);
         assert.doesNotMatch(
             shown,
-            /\b(?:the|is|are|must|but|with|use|hint|container|discs)\b|--|\$|undefined/,
-            message,
+            /\b(?:the|is|are|must|but|with|use|hint|container|discs)\b|--|[{}]|undefined/,
+            message.text,
         );
-        const missing = of(message.split("\n")[0]).filter((number) => !of(shown).includes(number));
-        assert.deepEqual(missing, [], `'${shown}' lacks numbers of '${message}'`);
+        const numbers = numbersIn(message.sentences);
+        const missing = numbers.filter((number) => !shown.includes(fill("{x}", {x: number}, true)));
+        assert.deepEqual(missing, [], `'${shown}' lacks numbers of '${message.text}'`);
     }
     // Pupils read names of fields instead of options, and in German decimal commas.
     const {labelled} = await load("symbols");
@@ -277,10 +310,6 @@ try {
     assert.equal(
         labelled("--mu-disc is -1, but --mu is 2.", labels),
         "Friction between discs is -1, but friction is 2.",
-    );
-    assert.match(
-        translated("--mu is -0.5, but it must be a number from 0 to 1.5.", de.texts.labels),
-        /^Reibung ist -0,5, .* von 0 bis 1,5 /,
     );
     for (const [key, value] of [...german, ...english]) {
         const said = typeof value === "function" ? String(value) : String(value);
@@ -435,7 +464,8 @@ try {
     );
     assert.equal(shellWord("it's"), "'it'\\''s'");
 
-    const {settingOf, settingFrom, linkTextOf, tableOf: pointsTable} = await load("discovery");
+    const {settingFrom, linkTextOf, tableOf: pointsTable} = await load("discovery"),
+        {settingOf} = await load("settings");
     assert.equal(settingOf({discs: "48", mu: "0.5", events: "3", seed: ""}), "mu=0.5");
     assert.equal(settingOf({radius: "2", mu: "1"}), settingOf({mu: "1", radius: "2"}));
     assert.equal(settingOf({seed: "2", mu: "1"}), "mu=1"); // a point has several seeds
@@ -635,6 +665,14 @@ try {
         ["[1]", "unknown"],
     ])
         assert.throws(() => readFile(bytes(text), parameters), {problem}, text);
+    // A long text is refused, and so is one in a value.
+    const long = "x".repeat(45e6);
+    assert.throws(() => readFile(bytes(long), parameters), {problem: "unknown"});
+    assert.throws(
+        () =>
+            readFile(bytes(`{"config": {"body": "${long}"}, "events": {"total": 1}}`), parameters),
+        {problem: "wrongValue", what: `body = ${long.slice(0, 60)} …`},
+    );
     // A value of another kind is named. JSON has no NaN; 1e999 is read as infinity.
     for (const [wrong, what] of [
         ['"events": {}', "events.total = undefined"],

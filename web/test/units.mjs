@@ -1,26 +1,14 @@
 // Unit tests of the page's own computations: node units.mjs. Exits with 1 and a message if a test
 // fails.
 import assert from "node:assert/strict";
-import {mkdtempSync, readdirSync, readFileSync, rmSync} from "node:fs";
+import {mkdtempSync, readFileSync, rmSync} from "node:fs";
 import {tmpdir} from "node:os";
-import {dirname, join} from "node:path";
-import {fileURLToPath, pathToFileURL} from "node:url";
-import {build} from "esbuild";
+import {join} from "node:path";
 import ts from "typescript";
+import {filesWith, loader} from "./sources.mjs";
 
-const sources = join(dirname(fileURLToPath(import.meta.url)), "..", "src");
 const folder = mkdtempSync(join(tmpdir(), "swirl-units-"));
-const load = async (name, as = name) => {
-    const outfile = join(folder, `${as}.mjs`);
-    await build({
-        entryPoints: [join(sources, `${name}.ts`)],
-        bundle: true,
-        format: "esm",
-        outfile,
-        logLevel: "error",
-    });
-    return import(pathToFileURL(outfile).href);
-};
+const load = loader(folder);
 const frame = (discs, {time = 0, centre = [0, 0], radius = 8.6} = {}) =>
     new Float64Array([
         time,
@@ -158,22 +146,21 @@ try {
     ])
         assert.deepEqual(shownBy(source), wanted, source);
     const classes = new Set(
-        readdirSync(sources)
-            .filter((each) => each.endsWith(".css"))
-            .flatMap((each) =>
-                readFileSync(join(sources, each), "utf-8").match(/(?<=\.)[a-z][a-z-]*/g),
-            ),
+        filesWith(".css").flatMap((each) =>
+            readFileSync(each, "utf-8").match(/(?<=\.)[a-z][a-z-]*/g),
+        ),
     );
-    for (const name of readdirSync(sources).filter(
-        (each) => each.endsWith(".ts") && !/^symbols/.test(each),
-    )) {
-        const stray = shownBy(readFileSync(join(sources, name), "utf-8")).filter(
+    for (const name of filesWith(".ts").filter((each) => !each.endsWith("symbols.ts"))) {
+        const stray = shownBy(readFileSync(name, "utf-8")).filter(
             (each) => !each.split(" ").every((word) => classes.has(word)),
         );
         assert.deepEqual(stray, [], `${name} has texts that belong in texts.en.json`);
     }
     assert.deepEqual(shownByPage('<a title="So {{b}}" id="x">{{a}} <b>yes</b></a>'), ["So", "yes"]);
-    assert.deepEqual(shownByPage(readFileSync(join(sources, "..", "index.html"), "utf-8")), []);
+    assert.deepEqual(
+        shownByPage(readFileSync(new URL("../index.html", import.meta.url), "utf-8")),
+        [],
+    );
 
     const {discAt, recent} = await load("scene");
     const cluster = [
@@ -257,7 +244,7 @@ try {
 
     // The verdict: from all periods while there is no average, firm when the 95 % interval excludes
     // zero.
-    const {findingOf} = await load("verdict");
+    const {findingOf} = await load("finding");
     const nothing = {error: null, isFirm: false};
     assert.deepEqual(findingOf(undefined, 0.02, 0.1), {
         mean: null,
@@ -293,9 +280,9 @@ try {
 
     // The page stores nothing in the browser, so that tabs have nothing in common and nothing can
     // be damaged.
-    for (const name of readdirSync(sources))
+    for (const name of filesWith(".ts"))
         assert.doesNotMatch(
-            readFileSync(join(sources, name), "utf-8"),
+            readFileSync(name, "utf-8"),
             /localStorage|sessionStorage|indexedDB|BroadcastChannel|SharedWorker|serviceWorker|\.cookie/,
             name,
         );

@@ -40,7 +40,7 @@ inline constexpr std::array<Color, 7> distinct_colors{
     color_from_hex(0xD55E00)};
 
 /// Sectors of a cluster, around the circle: neighbours are similar, and opposite ones differ for
-/// every colour vision. The browser page has the same (web/src/paint.ts).
+/// every colour vision. The browser page has the same (web/src/drawing/paint.ts).
 inline constexpr std::array<Color, 6> sector_colors{
     color_from_hex(0x2A6DB0), color_from_hex(0x62B5E5), color_from_hex(0x2A9D80),
     color_from_hex(0xF3D95A), color_from_hex(0xEA9F33), color_from_hex(0xD65F2B)};

@@ -1,32 +1,27 @@
 #include "swirl/run/collapse_guard.hpp"
 
-#include <fmt/format.h>
-
 namespace swirl {
 
-static std::string reason_for_collapse(const RunConfig& config) {
-    if (config.restitution < 1.0)
-        return fmt::format(
-            "with restitution {} the {}s collide ever faster (inelastic collapse).\nhint: use a "
-            "--contact-duration longer than {}.",
-            config.restitution, body_word(config), config.contact_duration);
-    return fmt::format(
-        "friction has dissipated the relative motion of {}s that are pressed together, and they "
-        "collide ever faster (frictional collapse; docs/explanation/physics.md). The model has no "
-        "state after it.\nhint: another --seed than {} may avoid it.",
-        body_word(config), config.seed);
-}
-
-std::string duration_text(const Collapse& collapse) {
+Message duration_of(const Collapse& collapse) {
     // The two times may be equal in double precision.
-    return fmt::format("the last {} events took {}", collapse.events,
-                       collapse.periods > 0.0 ? fmt::format("only {:.2g} periods", collapse.periods)
-                                              : "no measurable time");
+    if (collapse.periods > 0.0) return {"short_time", {rounded("periods", collapse.periods, 2)}};
+    return Message("no_time");
 }
 
-std::string collapse_sentence(const Collapse& collapse, double periods, const RunConfig& config) {
-    return fmt::format("{} (collapse after {:.3f} periods): {}", duration_text(collapse), periods,
-                       reason_for_collapse(config));
+Message collapse_message(const Collapse& collapse, double periods, const RunConfig& config) {
+    const MessageValue events("events", static_cast<double>(collapse.events));
+    const MessageValue duration("duration", duration_of(collapse));
+    const MessageValue until = with_decimals("periods", periods, 3);
+    if (config.restitution < 1.0)
+        return {"inelastic_collapse",
+                {events,
+                 duration,
+                 until,
+                 {"restitution", config.restitution},
+                 body_of(config),
+                 {"contact", config.contact_duration}}};
+    return {"frictional_collapse",
+            {events, duration, until, body_of(config), {"seed", config.seed}}};
 }
 
 }  // namespace swirl

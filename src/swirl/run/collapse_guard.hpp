@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "swirl/engine/simulation.hpp"
 #include "swirl/run/collapse.hpp"
@@ -11,25 +10,25 @@
 
 namespace swirl {
 
-/// "the last 20000 events took only 1e-05 periods"
-std::string duration_text(const Collapse& collapse);
+/// "only 1e-05 periods"
+Message duration_of(const Collapse& collapse);
 
-/// Also which of the two kinds of collapse it is, and what helps.
-std::string collapse_sentence(const Collapse& collapse, double periods, const RunConfig& config);
+/// Which of the two kinds of collapse it is, and what helps.
+Message collapse_message(const Collapse& collapse, double periods, const RunConfig& config);
 
 class CollapseGuard {
   public:
     CollapseGuard(const Simulation& simulation, double period)
         : watch_(simulation.size(), mark(simulation, period)) {}
 
-    /// Why the simulation cannot continue, as a sentence; nothing if it can. Call this at least
+    /// Why the simulation cannot continue; nothing if it can. Call this at least
     /// every few thousand events. `period`: its present length.
-    std::optional<std::string> problem(const Simulation& simulation, double period,
-                                       const RunConfig& config) {
+    std::optional<Message> problem(const Simulation& simulation, double period,
+                                   const RunConfig& config) {
         const RunMark now = mark(simulation, period);
         const auto found = watch_.check(now);
         if (!found) return {};
-        return collapse_sentence(*found, now.periods, config);
+        return collapse_message(*found, now.periods, config);
     }
 
   private:

@@ -19,57 +19,50 @@
 namespace swirl {
 namespace {
 
-std::optional<std::string> out_of_interval(const char* name, double value, double from, double to) {
+std::optional<Message> out_of_interval(const MessageValue& name, double value, double from,
+                                       double to) {
     if (value >= from && value <= to) return {};
-    return fmt::format("{} is {}, but it must be a number from {} to {}.", name, value, from, to);
+    return Message("out_of_range", {name, {"value", value}, {"from", from}, {"to", to}});
 }
 
 /// The default contact duration is allowed in runs that do not use it, whatever the period.
-std::optional<std::string> contact_longer_than_period(const RunConfig& c) {
+std::optional<Message> contact_longer_than_period(const RunConfig& c) {
     if (c.contact_duration <= c.period) return {};
     const bool is_default = c.contact_duration == RunConfig{}.contact_duration;
     if (is_default && !c.uses_contact_duration()) return {};
     if (!is_default)
-        return out_of_interval("--contact-duration", c.contact_duration, 0.0, c.period);
-    return fmt::format(
-        "the period is {}, which is shorter than the default contact duration, {}.\nhint: use "
-        "--contact-duration with a value from 0 to {}, or a longer period.",
-        c.period, c.contact_duration, c.period);
+        return out_of_interval({"name", "--contact-duration"}, c.contact_duration, 0.0, c.period);
+    return Message("short_period", {{"period", c.period}, {"duration", c.contact_duration}});
 }
 
 /// Ranges that depend on other parameters.
-std::optional<std::string> problem_with_ratios(const RunConfig& c) {
+std::optional<Message> problem_with_ratios(const RunConfig& c) {
     if (auto message = contact_longer_than_period(c)) return message;
     if (!c.mixture) return {};
     if (const auto& percent = c.mixture->percent) {
         if (!(*percent > 0.0 && *percent <= 100.0))
-            return fmt::format(
-                "the share in --mixture is {} %, but it must be above 0 and at most 100 %.",
-                *percent);
+            return Message("mixture_share", {{"percent", *percent}});
         if (c.mixture->count < 1)
-            return fmt::format(
-                "the share in --mixture is {} %, which rounds to none of {}.\nhint: use a larger "
-                "share or more {}s.",
-                *percent, counted(c.discs, body_word(c)), body_word(c));
+            return Message("mixture_of_none",
+                           {{"percent", *percent}, {"discs", c.discs}, body_of(c)});
     }
     if (c.mixture->count < 1 || c.mixture->count > c.discs)
-        return fmt::format(
-            "the count in --mixture is {}, but it must be a whole number from 1 to {}.\nhint: a "
-            "share, such as --mixture 50%:{}, is possible for any number of {}s.",
-            c.mixture->count, c.discs, c.mixture->radius, body_word(c));
-    if (auto message = out_of_interval("the radius in --mixture", c.mixture->radius, smallest_value,
-                                       largest_value))
+        return Message("mixture_count", {{"count", c.mixture->count},
+                                         {"discs", c.discs},
+                                         {"radius", c.mixture->radius},
+                                         body_of(c)});
+    if (auto message = out_of_interval({"name", Message("mixture_radius")}, c.mixture->radius,
+                                       smallest_value, largest_value))
         return message;
-    return out_of_interval("the mass in --mixture", c.mixture->mass, smallest_value, largest_value);
+    return out_of_interval({"name", Message("mixture_mass")}, c.mixture->mass, smallest_value,
+                           largest_value);
 }
 
 /// Does not name --discs, because a search for a crossing has no such option.
-std::string hint_on_capacity(const RunConfig& c) {
-    return fmt::format("\nhint: use fewer {}s or a larger --container-radius.", body_word(c));
-}
+Message hint_on_capacity(const RunConfig& c) { return {"fewer_particles", {body_of(c)}}; }
 
 /// The only upper bound for unequal discs is the area of the container.
-std::optional<std::string> problem_with_area(const RunConfig& c) {
+std::optional<Message> problem_with_area(const RunConfig& c) {
     const double R = c.container_radius;
     double area = 0.0;
     if (c.mixture) {
@@ -81,125 +74,114 @@ std::optional<std::string> problem_with_area(const RunConfig& c) {
             area += particle.radius * particle.radius;
     }
     if (area <= R * R) return {};
-    return fmt::format(
-        "{} {} not fit into a container of radius {}: together they would cover {:.0f} % of "
-        "it.{}",
-        counted(c.discs, body_word(c)), c.discs == 1 ? "does" : "do", R, 100.0 * area / (R * R),
-        hint_on_capacity(c));
+    return Message("too_much_area", {{"discs", c.discs},
+                                     body_of(c),
+                                     {"container", R},
+                                     with_decimals("percent", 100.0 * area / (R * R), 0)}) +
+           hint_on_capacity(c);
 }
 
 /// The largest number of discs of one size, by the known arrangements or, in larger containers, by
 /// a bound for all arrangements.
 struct Capacity {
-    const char* known;  // "known " if it holds for the known arrangements
+    bool is_of_known;  // it holds for the known arrangements only
     double maximum;
 };
 Capacity capacity(const RunConfig& c) {
     if (const auto n = discs_in_densest_known_arrangement(c.radius, c.container_radius))
-        return {"known ", static_cast<double>(*n)};
-    return {"", max_discs_in_container(c.radius, c.container_radius)};
+        return {true, static_cast<double>(*n)};
+    return {false, max_discs_in_container(c.radius, c.container_radius)};
 }
 
 /// In radii of the smallest disc. The centres of Verlet skins are stored in single precision. The
 /// narrowest skin, 0.005 radii, must exceed their rounding error, 6·10⁻⁸ of the distance.
 constexpr double max_container_ratio = 5e4;
 
-std::optional<std::string> problem_with_size(const RunConfig& c) {
+std::optional<Message> problem_with_size(const RunConfig& c) {
     const double R = c.container_radius;
     const auto [smallest, largest] = radius_bounds(c);
     if (largest >= R)
-        return fmt::format(
-            "a {} of radius {} does not fit into a container of radius {}: --container-radius must "
-            "be larger than {}.",
-            body_word(c), largest, R, c.sizes ? "the largest radius in --sizes" : "--radius");
+        return Message("particle_too_large",
+                       {body_of(c),
+                        {"radius", largest},
+                        {"container", R},
+                        c.sizes ? MessageValue("what", Message("largest_size"))
+                                : MessageValue("what", "--radius")});
     if (R > max_container_ratio * smallest)
-        return fmt::format(
-            "a container of radius {} is more than {} times as large as a {} of radius {}, which "
-            "exceeds the accuracy of the neighbour search.\nhint: use a smaller "
-            "--container-radius.",
-            R, max_container_ratio, body_word(c), smallest);
+        return Message(
+            "container_too_large",
+            {{"container", R}, {"times", max_container_ratio}, body_of(c), {"radius", smallest}});
     if (has_unequal_sizes(c)) return problem_with_area(c);
-    const auto [known, maximum] = capacity(c);
+    const auto [is_of_known, maximum] = capacity(c);
     if (static_cast<double>(c.discs) <= maximum) return {};
-    return fmt::format(
-        "{} {} not fit into a container of radius {}: no {}arrangement holds more than {:.0f}.{}",
-        counted(c.discs, body_word(c)), c.discs == 1 ? "does" : "do", R, known, maximum,
-        hint_on_capacity(c));
+    return Message(is_of_known ? Code("too_many_known") : Code("too_many"),
+                   {{"discs", c.discs},
+                    body_of(c),
+                    {"container", R},
+                    with_decimals("most", maximum, 0)}) +
+           hint_on_capacity(c);
 }
 
 /// A contact within the contact duration is delayed: the particles separate with half of the speed
 /// that the floor's friction removes in that time (docs/explanation/spheres.md). This separation
 /// speed must be small compared with the speed of the container. A ratio of 0.3 changes ϖ by less
 /// than one standard error; a ratio of 3 suppresses the counterrotation.
-std::optional<std::string> problem_with_floor_friction(const RunConfig& c) {
+std::optional<Message> problem_with_floor_friction(const RunConfig& c) {
     constexpr double max_ratio = 0.5;
     const double speed = c.amplitude * c.omega();
     const double separation = 0.5 * c.floor_friction * c.gravity * c.contact_duration;
     if (!c.floor || c.amplitude == 0.0 || separation <= max_ratio * speed) return {};
-    return fmt::format(
-        "--floor-friction {} times --gravity {} is too large for --contact-duration {}: in that "
-        "time, floor friction changes velocities by {:.2g} times the container's speed.\nhint: "
-        "keep the product below {:.3g}.",
-        c.floor_friction, c.gravity, c.contact_duration, 2.0 * separation / speed,
-        2.0 * max_ratio * speed / c.contact_duration);
+    return Message("floor_friction_too_large",
+                   {{"friction", c.floor_friction},
+                    {"gravity", c.gravity},
+                    {"duration", c.contact_duration},
+                    rounded("change", 2.0 * separation / speed, 2),
+                    rounded("most", 2.0 * max_ratio * speed / c.contact_duration, 3)});
 }
 
 /// With less resistance than the floor's friction, a sphere that slows down does not slide
 /// (floor.hpp).
-std::optional<std::string> problem_with_rolling_resistance(const RunConfig& c) {
+std::optional<Message> problem_with_rolling_resistance(const RunConfig& c) {
     if (c.rolling_resistance <= c.floor_friction) return {};
-    return fmt::format(
-        "--rolling-resistance is {}, but it must not exceed --floor-friction, {}: the spheres "
-        "would slide instead of rolling.",
-        c.rolling_resistance, c.floor_friction);
+    return Message("rolling_resistance_too_large",
+                   {{"resistance", c.rolling_resistance}, {"friction", c.floor_friction}});
 }
 
-std::optional<std::string> problem_with_body(const RunConfig& c) {
+std::optional<Message> problem_with_body(const RunConfig& c) {
     if (c.frictionless != Frictionless::none && c.shape() != Shape::disc)
-        return fmt::format(
-            "--frictionless is only for discs without a floor.\nhint: use --mu-disc 0 or --mu-wall "
-            "0.");
+        return Message("frictionless_only_discs");
     if (c.body == Shape::sphere) return {};
     const RunConfig defaults;
     for (const Parameter& p : run_parameters) {
         if (!needs_spheres(p.applies_to)) continue;
         const double value = c.*p.number();
         if (value != defaults.*p.number())
-            return fmt::format("{} is {}, but it is for spheres only.\nhint: add --body sphere.",
-                               option_name(p.name), value);
+            return Message("only_for_spheres", {{"name", option_name(p.name)}, {"value", value}});
     }
     return {};
 }
 
-std::optional<std::string> problem_with_units(const RunConfig& c) {
+std::optional<Message> problem_with_units(const RunConfig& c) {
     if (c.length_unit.empty() || c.radius == 1.0) return {};
-    return fmt::format(
-        "--length-unit is {}, which is what the radius is, but --radius is {} instead of 1.\nhint: "
-        "give values with units, such as --radius 3mm.",
-        c.length_unit, c.radius);
+    return Message("unit_of_radius", {{"unit", c.length_unit}, {"radius", c.radius}});
 }
 
-std::optional<std::string> problem_with_warmup(const RunConfig& c) {
+std::optional<Message> problem_with_warmup(const RunConfig& c) {
     if (!c.warmup || *c.warmup == 0) return {};
     if (c.periods) {
         if (*c.warmup < *c.periods) return {};
-        return fmt::format(
-            "--warmup is {} periods, but the whole run is only --periods {}: the warm-up must be "
-            "shorter than the run.",
-            *c.warmup, *c.periods);
+        return Message("warmup_of_all_periods", {{"warmup", *c.warmup}, {"periods", *c.periods}});
     }
     // Every period has at least the events at the vertices of the path.
     const std::int64_t segments = path_vertices(c);
     if (*c.warmup < c.events / segments + 1) return {};
-    return fmt::format(
-        "--warmup is {} periods, but a run of --events {} has at most {} periods: the warm-up must "
-        "be shorter than the run.",
-        *c.warmup, c.events, c.events / segments);
+    return Message("warmup_of_all_events",
+                   {{"warmup", *c.warmup}, {"events", c.events}, {"periods", c.events / segments}});
 }
 
 }  // namespace
 
-std::optional<std::string> problem(const RunConfig& config) {
+std::optional<Message> problem(const RunConfig& config) {
     if (auto message = out_of_range(config)) return message;
     if (auto message = problem_with_ratios(config)) return message;
     if (auto message = problem_with_sizes(config)) return message;
@@ -221,6 +203,10 @@ Tuning stopped_by(const std::atomic<bool>* stop) {
 
 const char* body_word(const RunConfig& config) {
     return config.body == Shape::sphere ? "sphere" : "disc";
+}
+
+MessageValue body_of(const RunConfig& config) {
+    return {"body", config.body == Shape::sphere ? Message("sphere") : Message("disc")};
 }
 
 namespace {
@@ -253,19 +239,18 @@ InitialState without_discs(const RunConfig& c, const ContainerPath& path) {
 
 namespace {
 
-std::string no_placement_message(const RunConfig& c) {
-    std::string bound;
+Message no_placement_message(const RunConfig& c) {
+    Message message("not_placed", {{"discs", c.discs},
+                                   body_of(c),
+                                   {"radii", radii_text(c)},
+                                   {"container", c.container_radius}});
     if (!has_unequal_sizes(c)) {
-        const auto [known, maximum] = capacity(c);
-        bound = fmt::format(
-            " No {}arrangement holds more than {:.0f}, and close to that number the placement may "
-            "fail.",
-            known, maximum);
+        const auto [is_of_known, maximum] = capacity(c);
+        message +=
+            Message(is_of_known ? Code("placement_may_fail_known") : Code("placement_may_fail"),
+                    {with_decimals("most", maximum, 0)});
     }
-    return fmt::format(
-        "{} of {} could not be placed in a container of radius {} without overlap.{}{}",
-        counted(c.discs, body_word(c)), radii_text(c), c.container_radius, bound,
-        hint_on_capacity(c));
+    return message + hint_on_capacity(c);
 }
 
 }  // namespace

@@ -9,17 +9,20 @@
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/quantity.hpp"
 #include "swirl/physics/container_path.hpp"
+#include "swirl/run/message.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
 
-/// Why this configuration cannot be run, as an error message; nothing if it can.
-std::optional<std::string> problem(const RunConfig& config);
+/// Why this configuration cannot be run; nothing if it can.
+std::optional<Message> problem(const RunConfig& config);
 
 ContainerPath make_path(const RunConfig& config);
 
 /// The particles in messages: "disc" or "sphere".
 const char* body_word(const RunConfig& config);
+/// The same as the value {body} of a message.
+MessageValue body_of(const RunConfig& config);
 
 /// The container, its surfaces and its floor without discs. `path` may differ from the
 /// configuration's.

@@ -1,7 +1,5 @@
 #include "swirl/run/core_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -186,29 +184,26 @@ int CoreRun::events_until_check() const {
     return static_cast<int>(std::clamp<std::int64_t>(left, 0, at_most));
 }
 
-std::optional<std::string> CoreRun::problem() {
-    if (auto sentence = overlap_problem()) return sentence;
+std::optional<Message> CoreRun::problem() {
+    if (auto message = overlap_problem()) return message;
     if (const auto found = watch_.check(mark()))
-        return collapse_sentence(*found, periods(), config_);
+        return collapse_message(*found, periods(), config_);
     return {};
 }
-std::optional<std::string> CoreRun::problem_at_the_end() const {
-    if (auto sentence = overlap_problem()) return sentence;
+std::optional<Message> CoreRun::problem_at_the_end() const {
+    if (auto message = overlap_problem()) return message;
     if (const auto found = watch_.check_at_end(mark()))
-        return collapse_sentence(*found, periods(), config_);
+        return collapse_message(*found, periods(), config_);
     return {};
 }
 
 /// Overlaps are rounding errors of positions (docs/explanation/physics.md) and must stay small.
-std::optional<std::string> CoreRun::overlap_problem() const {
+std::optional<Message> CoreRun::overlap_problem() const {
     constexpr double max_relative_overlap = 1e-6;
     const double smallest = radius_bounds(config_).smallest;
     if (result_.max_overlap <= max_relative_overlap * smallest) return {};
-    return fmt::format(
-        "after {:.3f} periods a disc overlaps another disc or the wall by {:.2g} of the smallest "
-        "radius: rounding errors are too large for such small discs in such a wide container or "
-        "on such a long path.\nhint: reduce --container-radius, --amplitude or --events.",
-        periods(), result_.max_overlap / smallest);
+    return Message("overlap", {with_decimals("periods", periods(), 3),
+                               rounded("overlap", result_.max_overlap / smallest, 2)});
 }
 
 /// Takes the sample by event of the current state, if it is due.

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <string>
 
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
@@ -91,11 +90,11 @@ class CoreRun {
         events_to_check_ = std::max(events_until_check() - 1, 0);
         return true;
     }
-    /// Why the run cannot continue, as a sentence: rounding errors have become too large, or a
+    /// Why the run cannot continue: rounding errors have become too large, or a
     /// collapse has occurred. Empty if there is no problem.
-    std::optional<std::string> problem();
+    std::optional<Message> problem();
     /// Like problem(), but only for the last events of the run.
-    std::optional<std::string> problem_at_the_end() const;
+    std::optional<Message> problem_at_the_end() const;
 
     /// Separate from the rotation after the warm-up. A run too short for a warm-up reports it.
     const ClusterRotation& rotation_in_warmup() {
@@ -130,7 +129,7 @@ class CoreRun {
     bool observes_events() const;
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
     int events_until_check() const;
-    std::optional<std::string> overlap_problem() const;
+    std::optional<Message> overlap_problem() const;
     void sample_by_event();
     std::uint64_t execute_span(double due, std::uint64_t maximum);
     /// What measurements see: a clockwise dish in its mirror image.

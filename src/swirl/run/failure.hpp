@@ -6,6 +6,7 @@
 #include <string>
 
 #include "swirl/io/short_values.hpp"
+#include "swirl/run/message.hpp"
 
 namespace swirl {
 
@@ -30,7 +31,12 @@ class Interrupted : public std::runtime_error {
 
 // Code that is also compiled for the browser, where there are no exceptions, throws by these
 // functions. There they pass the message to the page instead (bindings/wasm).
-[[noreturn]] void throw_usage_error(const std::string& sentence);
+[[noreturn]] void throw_usage_error(const Message& message);
 [[noreturn]] void throw_interrupted(const std::string& sentence);
+
+// For code that is not part of the page. The page has no such functions, so a sentence without a
+// code cannot get into it.
+[[noreturn]] void throw_usage_error(const std::string& sentence);
+Message without_code(const std::string& sentence);
 
 }  // namespace swirl

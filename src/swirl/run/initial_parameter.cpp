@@ -102,21 +102,23 @@ std::optional<std::string> problem_with_given_discs(const InitialState& scene, c
     return overlap_in(scene, centre, tolerance);
 }
 
-std::optional<std::string> problem_with_initial(const RunConfig& c) {
+std::optional<Message> problem_with_initial(const RunConfig& c) {
     if (c.initial.empty()) return {};
     if (c.initial.size() > max_listed_sizes)
-        return fmt::format("--initial has more than {} discs.", max_listed_sizes);
+        return without_code(fmt::format("--initial has more than {} discs.", max_listed_sizes));
     if (static_cast<std::int64_t>(c.initial.size()) != c.discs)
-        return fmt::format("--initial has {}, but the other options give {}.\nhint: omit --discs.",
-                           counted(static_cast<std::int64_t>(c.initial.size()), "disc"), c.discs);
+        return without_code(
+            fmt::format("--initial has {}, but the other options give {}.\nhint: omit --discs.",
+                        counted(static_cast<std::int64_t>(c.initial.size()), "disc"), c.discs));
     if (c.shape() != Shape::disc)
-        return "--initial is only for discs without a floor.\nhint: omit --body and --floor.";
+        return without_code(
+            "--initial is only for discs without a floor.\nhint: omit --body and --floor.");
     const InitialState scene = scene_of(c);
     const auto message =
         problem_with_given_discs(scene, scene.path.segments.front().start, initial_overlap);
     if (!message) return {};
-    return fmt::format("--initial: {}\nhint: discs count from 0; positions are in the lab frame.",
-                       *message);
+    return without_code(fmt::format(
+        "--initial: {}\nhint: discs count from 0; positions are in the lab frame.", *message));
 }
 
 InitialState given_initial_state(const RunConfig& config) {

@@ -23,7 +23,7 @@ inline constexpr double initial_overlap = 1e-9;
 std::optional<std::string> problem_with_given_discs(const InitialState& scene, const Vec2& centre,
                                                     double tolerance);
 /// The same for --initial; nothing if it is not given.
-std::optional<std::string> problem_with_initial(const RunConfig& config);
+std::optional<Message> problem_with_initial(const RunConfig& config);
 
 /// The scene of --initial, which must be given. Throws UsageError if there is a problem.
 InitialState given_initial_state(const RunConfig& config);

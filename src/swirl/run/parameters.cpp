@@ -25,48 +25,53 @@ struct Overloaded : Cases... {
     using Cases::operator()...;
 };
 
-[[noreturn]] void reject_text(std::string_view name, std::string_view text, const char* allowed) {
-    throw_usage_error(
-        fmt::format("{} is '{}', but it must be {}.", option_name(name), text, allowed));
+/// A sentence about the text of an option.
+Message about(Code code, std::string_view name, std::string_view text) {
+    return {code, {{"name", option_name(name)}, {"text", text}}};
 }
 
 [[noreturn]] void reject_choice(std::string_view name, std::string_view text,
-                                const std::vector<std::string>& choices, const char* allowed) {
-    throw_usage_error(fmt::format("{} is '{}', but it must be {}.{}", option_name(name), text,
-                                  allowed, nearest_value_hint(text, choices)));
+                                const std::vector<std::string>& choices) {
+    Message message("not_a_choice",
+                    {{"name", option_name(name)}, {"text", text}, {"choices", choices}});
+    add_nearest_value(message, text, choices);
+    throw_usage_error(message);
 }
 
-/// Why a text is no number: a decimal comma, a list or a range. "" if none of these.
-std::string hint_on_number(std::string_view text) {
+/// Adds why a text is no number, if it has a unit or a decimal comma, or is a list or a range.
+void add_hint_on_number(Message& message, std::string_view text) {
     if (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
-        std::isalpha(static_cast<unsigned char>(text.back())))
-        return "\nhint: units are um, mm, cm, m, in; us, ms, s, min, rpm, Hz; mm/s, m/s, m/s2.";
+        std::isalpha(static_cast<unsigned char>(text.back()))) {
+        message += Message("units");
+        return;
+    }
     const auto parts = split(text, ",:");
     const bool has_numbers =
         parts.size() > 1 && std::all_of(parts.begin(), parts.end(), read_number);
-    if (!has_numbers) return "";
-    const std::string lists = "`swirl sweep` takes lists and ranges";
+    if (!has_numbers) return;
     const bool is_decimal = text.find(':') == text.npos && parts.size() == 2 &&
                             text.find('.') == text.npos && parts[0].size() < 4;
-    return is_decimal
-               ? fmt::format("\nhint: use a decimal point, {}.{}; {}.", parts[0], parts[1], lists)
-               : fmt::format("\nhint: give one number; {}.", lists);
+    if (is_decimal)
+        message += Message("decimal_point", {{"whole", parts[0]}, {"decimals", parts[1]}});
+    else
+        message += Message("one_number");
 }
 
-[[noreturn]] void reject_number(std::string_view name, std::string_view text, const char* allowed) {
-    throw_usage_error(fmt::format("{} is '{}', but it must be {}.{}", option_name(name), text,
-                                  allowed, hint_on_number(text)));
+[[noreturn]] void reject_number(Code code, std::string_view name, std::string_view text) {
+    Message message = about(code, name, text);
+    add_hint_on_number(message, text);
+    throw_usage_error(message);
 }
 
 double number_from(std::string_view name, std::string_view text) {
     const auto value = read_number(text);
-    if (!value) reject_number(name, text, "a finite number, for example 0.5 or 1e3");
+    if (!value) reject_number("not_a_number", name, text);
     return *value;
 }
 
 std::int64_t whole_number_from(std::string_view name, std::string_view text) {
     const auto value = read_whole_number(text);
-    if (!value) reject_number(name, text, "a whole number below 10^18, for example 48 or 1e6");
+    if (!value) reject_number("not_whole", name, text);
     return *value;
 }
 
@@ -74,8 +79,7 @@ std::uint64_t seed_from(std::string_view name, std::string_view text) {
     std::uint64_t seed = 0;
     const char* const last = text.data() + text.size();
     const auto [end, error] = std::from_chars(text.data(), last, seed);
-    if (error != std::errc() || end != last)
-        reject_text(name, text, "a whole number from 0 to 18446744073709551615");
+    if (error != std::errc() || end != last) throw_usage_error(about("not_a_seed", name, text));
     return seed;
 }
 
@@ -145,12 +149,12 @@ ParameterTexts normalized(const ParameterTexts& given) {
         const Parameter* const row = find_parameter(name);
         if (row == nullptr || !row->is_settable()) {
             const auto meant = nearest_name(plain_name(name), parameter_names());
-            throw_usage_error(fmt::format(
-                "there is no parameter '{}'.\nhint: {}", name,
-                meant ? fmt::format("did you mean '{}'?", *meant) : "see `swirl run --help`."));
+            throw_usage_error(
+                Message("unknown_parameter", {{"name", name}}) +
+                (meant ? Message("did_you_mean", {{"name", *meant}}) : Message("see_help")));
         }
         if (!texts.emplace(row->name, text).second)
-            throw_usage_error(fmt::format("{} is given twice.", option_name(row->name)));
+            throw_usage_error(Message("given_twice", {{"name", option_name(row->name)}}));
     }
     return texts;
 }
@@ -175,21 +179,24 @@ void keep_two_of_three(ParameterTexts& texts, const ParameterTexts& command_line
         if (!command_line.contains(name)) return void(texts.erase(name));
 }
 
-std::optional<std::string> outside(const Parameter& p, double value) {
+std::optional<Message> outside(const Parameter& p, double value) {
     if (value >= p.range.lowest && value <= p.range.highest) return {};
-    return fmt::format("{} is {}, but it must be a number from {} to {}.", option_name(p.name),
-                       value, p.range.lowest, p.range.highest);
+    return Message("out_of_range", {{"name", option_name(p.name)},
+                                    {"value", value},
+                                    {"from", p.range.lowest},
+                                    {"to", p.range.highest}});
 }
 
-std::optional<std::string> outside(const Parameter& p, std::int64_t value) {
+std::optional<Message> outside(const Parameter& p, std::int64_t value) {
     const auto lowest = static_cast<std::int64_t>(p.range.lowest);
     const auto highest = static_cast<std::int64_t>(p.range.highest);
     if (value >= lowest && value <= highest) return {};
-    return fmt::format("{} is {}, but it must be a whole number from {} to {}.",
-                       option_name(p.name), value, lowest, highest);
+    return Message(
+        "out_of_whole_range",
+        {{"name", option_name(p.name)}, {"value", value}, {"from", lowest}, {"to", highest}});
 }
 
-std::optional<std::string> out_of_range(const Parameter& p, const RunConfig& config) {
+std::optional<Message> out_of_range(const Parameter& p, const RunConfig& config) {
     const ParameterValue value = member_value(p, config);
     if (const auto* number = std::get_if<double>(&value)) return outside(p, *number);
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return outside(p, *whole);
@@ -200,7 +207,7 @@ std::optional<std::string> out_of_range(const Parameter& p, const RunConfig& con
 
 void read_mu(std::string_view text, const ParameterTexts&, RunConfig& config) {
     const double mu = number_from("mu", text);
-    if (mu < 0.0) reject_text("mu", text, "0 or more");
+    if (mu < 0.0) throw_usage_error(about("negative", "mu", text));
     config.mu_disc = config.mu_wall = mu;
 }
 
@@ -210,14 +217,11 @@ static constexpr std::array frictionless_names{"none", "wall", "boundary", "bulk
 void read_frictionless(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     const auto found = std::find(frictionless_names.begin(), frictionless_names.end(), text);
     if (found == frictionless_names.end())
-        reject_choice("frictionless", text, {frictionless_names.begin(), frictionless_names.end()},
-                      "none, wall, boundary or bulk");
+        reject_choice("frictionless", text, {frictionless_names.begin(), frictionless_names.end()});
     config.frictionless = static_cast<Frictionless>(found - frictionless_names.begin());
     if (config.frictionless != Frictionless::wall) return;
     if (given.contains("mu_wall") && config.mu_wall != 0.0)
-        throw_usage_error(
-            fmt::format("--frictionless is wall, but --mu-wall is {}.\nhint: omit one of the two.",
-                        config.mu_wall));
+        throw_usage_error(Message("smooth_wall", {{"value", config.mu_wall}}));
     config.mu_wall = 0.0;
 }
 ParameterValue write_frictionless(const RunConfig& config) {
@@ -242,7 +246,7 @@ void read_preset(std::string_view text, const ParameterTexts& given, RunConfig& 
             config.periods = experiment_periods;
         return;
     }
-    reject_choice("preset", text, names, "experiment, experiment-rough or experiment-half");
+    reject_choice("preset", text, names);
 }
 
 namespace {
@@ -274,11 +278,8 @@ std::string given_units(const ParameterTexts& given) {
 void follow_preset(const ParameterTexts& given, RunConfig& config) {
     if (!given.contains("preset") || !has_own_units(given, config)) return;
     if (config.floor && !given.contains("gravity"))
-        throw_usage_error(fmt::format(
-            "--preset {} needs --gravity with {}: its gravity is that for r = 1 and a container "
-            "speed of 1.\nhint: give lengths and times with units, such as 3mm and 0.532s (gravity "
-            "is then 9.81 m/s2), or add --gravity.",
-            given.at("preset"), given_units(given)));
+        throw_usage_error(Message("preset_needs_gravity",
+                                  {{"preset", given.at("preset")}, {"given", given_units(given)}}));
     RunConfig preset;
     read_preset(given.at("preset"), {}, preset);
     for (const Parameter& p : run_parameters)
@@ -307,8 +308,7 @@ void RunConfig::remove_floor() {
 }
 
 void read_body(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "disc" && text != "sphere")
-        reject_choice("body", text, {"disc", "sphere"}, "disc or sphere");
+    if (text != "disc" && text != "sphere") reject_choice("body", text, {"disc", "sphere"});
     config.body = text == "sphere" ? Shape::sphere : Shape::disc;
     if (config.body == Shape::sphere) config.floor = true;
 }
@@ -318,10 +318,7 @@ ParameterValue write_body(const RunConfig& config) {
 }
 
 void read_floor(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "none" && text != "sliding")
-        reject_text("floor", text,
-                    "none or sliding: on a perfectly rough floor spheres would collide without "
-                    "end.\nhint: a large --floor-friction, 100 for example, has the same effect");
+    if (text != "none" && text != "sliding") throw_usage_error(about("not_a_floor", "floor", text));
     config.floor = text == "sliding";
     if (!config.floor) config.remove_floor();
 }
@@ -340,11 +337,11 @@ void read_inertia(std::string_view text, const ParameterTexts& given, RunConfig&
             return;
         }
     const auto value = read_number(text);
-    if (!value)
-        reject_choice(
-            "inertia", text, {std::begin(inertia_names), std::end(inertia_names)},
-            "a number above 0, or paper (10 m r^2), ring (m r^2), solid (m r^2 / 2), sphere (2/5 m "
-            "r^2) or shell (2/3 m r^2)");
+    if (!value) {
+        Message message = about("not_an_inertia", "inertia", text);
+        add_nearest_value(message, text, {std::begin(inertia_names), std::end(inertia_names)});
+        throw_usage_error(message);
+    }
     config.inertia = *value;
 }
 
@@ -356,20 +353,20 @@ std::string format_inertia(const RunConfig& config) {
 }
 
 void read_mixture(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    constexpr auto allowed =
-        "COUNT:RADIUS or COUNT:RADIUS:MASS, for example 12:1.4 for twelve discs of radius 1.4 or "
-        "25%:1.4 for a quarter of the discs";
+    const auto require = [&](bool is_valid) {
+        if (!is_valid) throw_usage_error(about("not_a_mixture", "mixture", text));
+    };
     const auto parts = split(text, ":");
-    if (parts.size() < 2 || parts.size() > 3) reject_text("mixture", text, allowed);
+    require(parts.size() == 2 || parts.size() == 3);
     const bool is_share = parts[0].ends_with('%');
     const auto percent =
         is_share ? read_number(parts[0].substr(0, parts[0].size() - 1)) : std::nullopt;
     const auto count = is_share ? std::nullopt : read_whole_number(parts[0]);
     const auto radius = read_number(parts[1]);
-    if ((!count && !percent) || !radius) reject_text("mixture", text, allowed);
+    require((count || percent) && radius);
     const auto mass =
         parts.size() == 3 ? read_number(parts[2]) : mass_of_same_material(*radius, config);
-    if (!mass) reject_text("mixture", text, allowed);
+    require(mass.has_value());
     config.mixture = Mixture{count.value_or(0), *radius, *mass, percent};
     if (percent && *percent >= 0.0 && *percent <= 100.0)  // others are rejected (config.cpp)
         config.mixture->count = std::llround(*percent * double(config.discs) / 100.0);
@@ -391,20 +388,18 @@ void read_speed(std::string_view text, const ParameterTexts& given, RunConfig& c
     const double speed = number_from("speed", text);
     const bool period_given = given.contains("period");
     if (!(speed >= 0.0 && speed <= largest_value))
-        reject_text("speed", text, "from 0 (a container at rest) to 1e6");
+        throw_usage_error(about("not_a_speed", "speed", text));
     if (period_given && given.contains("amplitude")) {
         const double actual = container_speed(config);
         if (std::fabs(actual - speed) <= 1e-6 * std::fmax(actual, speed)) return;
-        throw_usage_error(fmt::format(
-            "--speed is {}, but --amplitude {} and --period {} give a speed of {:.6g}.\nhint: omit "
-            "one of the three.",
-            speed, config.amplitude, config.period, actual));
+        throw_usage_error(Message("speed_contradicts", {{"speed", speed},
+                                                        {"amplitude", config.amplitude},
+                                                        {"period", config.period},
+                                                        rounded("actual", actual, 6)}));
     }
     if ((speed == 0.0) != (config.amplitude == 0.0) && !period_given)
-        throw_usage_error(fmt::format(
-            "--speed is {}, but with --amplitude {} the container {}.\nhint: set both to 0, or "
-            "neither.",
-            speed, config.amplitude, speed == 0.0 ? "moves" : "is at rest"));
+        throw_usage_error(Message(speed == 0.0 ? Code("speed_is_zero") : Code("speed_at_rest"),
+                                  {{"speed", speed}, {"amplitude", config.amplitude}}));
     // The speed is proportional to amplitude / period.
     if (period_given) {
         RunConfig unit = config;
@@ -421,10 +416,9 @@ ParameterValue write_omega(const RunConfig& config) { return config.omega(); }
 void read_sides(std::string_view text, const ParameterTexts&, RunConfig& config) {
     const std::int64_t sides = whole_number_from("sides", text);
     if (config.path == PathShape::circle || config.path == PathShape::points)
-        throw_usage_error(fmt::format("--sides is {}, but {}.\nhint: omit one of the two.", sides,
-                                      config.path == PathShape::circle
-                                          ? "--path circle has no sides"
-                                          : "the file of --path defines its segments"));
+        throw_usage_error(Message(config.path == PathShape::circle ? Code("circle_has_no_sides")
+                                                                   : Code("path_has_its_sides"),
+                                  {{"sides", sides}}));
     config.sides = clamped(sides);
 }
 ParameterValue write_sides(const RunConfig& config) {
@@ -438,9 +432,7 @@ ParameterValue write_events(const RunConfig& config) {
 
 void read_periods(std::string_view text, const ParameterTexts& given, RunConfig& config) {
     if (const auto events = given.find("events"); events != given.end())
-        throw_usage_error(fmt::format(
-            "--events {} and --periods {} both set the length of the run.\nhint: omit one of them.",
-            events->second, text));
+        throw_usage_error(Message("two_lengths", {{"events", events->second}, {"periods", text}}));
     config.periods = whole_number_from("periods", text);
 }
 
@@ -448,8 +440,7 @@ void read_warmup(std::string_view text, const ParameterTexts&, RunConfig& config
     config.warmup_found = text == "auto";
     if (config.warmup_found) return;
     config.warmup = read_whole_number(text);
-    if (!config.warmup)
-        reject_text("warmup", text, "a whole number of periods, for example 20, or auto");
+    if (!config.warmup) throw_usage_error(about("not_a_warmup", "warmup", text));
 }
 
 ParameterValue write_warmup(const RunConfig& config) {
@@ -493,13 +484,10 @@ static void reject_parameters_without_floor(const ParameterTexts& texts, const R
     for (const Parameter& p : run_parameters) {
         if (!needs_floor(p.applies_to)) continue;
         if (config.ramp_of(p.name))
-            throw_usage_error(fmt::format(
-                "--ramp changes {}, but there is no floor.\nhint: add --floor sliding.", p.name));
+            throw_usage_error(Message("ramp_without_floor", {{"name", p.name}}));
         if (texts.contains("floor")) continue;
         if (const auto found = texts.find(p.name); found != texts.end())
-            throw_usage_error(
-                fmt::format("{} is {}, but there is no floor.\nhint: add --floor sliding.",
-                            option_name(p.name), found->second));
+            throw_usage_error(about("no_floor", p.name, found->second));
     }
 }
 
@@ -568,7 +556,7 @@ ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_lin
     return file;
 }
 
-std::optional<std::string> out_of_range(const RunConfig& config) {
+std::optional<Message> out_of_range(const RunConfig& config) {
     // Reports the cause and not its consequence: a mass of 0, not the inertia computed from it.
     for (const ReadingOrder order : {ReadingOrder::first, ReadingOrder::second, ReadingOrder::last})
         for (const Parameter& p : run_parameters)

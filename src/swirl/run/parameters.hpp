@@ -192,6 +192,6 @@ RunConfig with_discs(const RunConfig& config, std::int64_t discs);
 ParameterTexts overridden(ParameterTexts file, const ParameterTexts& command_line);
 
 /// Describes the first parameter that is outside its range; nothing if all are inside.
-std::optional<std::string> out_of_range(const RunConfig& config);
+std::optional<Message> out_of_range(const RunConfig& config);
 
 }  // namespace swirl

@@ -34,12 +34,10 @@ constexpr Form forms[] = {{SizeLaw::uniform, "uniform", 2, "uniform:MIN:MAX"},
                           {SizeLaw::power, "power", 3, "power:EXPONENT:MIN:MAX"}};
 
 [[noreturn]] void reject_sizes(std::string_view text) {
-    throw_usage_error(fmt::format(
-        "--sizes is '{}', but it must be uniform:MIN:MAX, normal:MEAN:SD, lognormal:MEDIAN:SD, "
-        "power:EXPONENT:MIN:MAX or file:FILE.{}",
-        text,
-        nearest_value_hint(text.substr(0, text.find(':')),
-                           {"uniform", "normal", "lognormal", "power", "file"})));
+    Message message("not_sizes", {{"text", text}});
+    add_nearest_value(message, text.substr(0, text.find(':')),
+                      {"uniform", "normal", "lognormal", "power", "file"});
+    throw_usage_error(message);
 }
 
 Sizes listed_sizes(std::string_view text) {
@@ -51,13 +49,12 @@ Sizes listed_sizes(std::string_view text) {
         const auto radius = read_number(numbers[0]);
         const auto mass = numbers.size() == 2 ? read_number(numbers[1]) : std::nullopt;
         if (!radius || numbers.size() > 2 || (numbers.size() == 2 && !mass))
-            throw_usage_error(fmt::format(
-                "entry {} of --sizes is '{}', but it must be a radius or RADIUS:MASS, in finite "
-                "numbers.",
-                sizes.listed.size() + 1, part));
+            throw_usage_error(
+                Message("not_a_size",
+                        {{"entry", static_cast<double>(sizes.listed.size() + 1)}, {"text", part}}));
         sizes.listed.push_back({*radius, mass});
     }
-    if (sizes.listed.empty()) throw_usage_error("--sizes lists no particles.");
+    if (sizes.listed.empty()) throw_usage_error(Message("no_sizes"));
     return sizes;
 }
 
@@ -92,27 +89,26 @@ double drawn_radius(const Sizes& sizes, Random& random) {
     return 0.0;
 }
 
-std::optional<std::string> outside_range(const char* what, double value, double from, double to) {
+std::optional<Message> outside_range(const Message& what, double value, double from, double to) {
     if (value >= from && value <= to) return {};
-    return fmt::format("{} in --sizes is {}, but it must be a number from {} to {}.", what, value,
-                       from, to);
+    return Message("out_of_range", {{"name", what}, {"value", value}, {"from", from}, {"to", to}});
 }
 
-std::optional<std::string> problem_with_list(const RunConfig& c) {
+std::optional<Message> problem_with_list(const RunConfig& c) {
     const auto& listed = c.sizes->listed;
     if (listed.size() > max_listed_sizes)
-        return fmt::format("--sizes lists {} particles, but it may be at most {}.", listed.size(),
-                           max_listed_sizes);
+        return Message("too_many_sizes", {{"listed", static_cast<double>(listed.size())},
+                                          {"most", static_cast<double>(max_listed_sizes)}});
     if (static_cast<std::int64_t>(listed.size()) != c.discs)
-        return fmt::format(
-            "--sizes lists {} particles, but --discs is {}.\nhint: omit --discs to use all of "
-            "them.",
-            listed.size(), c.discs);
+        return Message("other_number_of_sizes",
+                       {{"listed", static_cast<double>(listed.size())}, {"discs", c.discs}});
     for (const ListedSize& size : listed) {
-        if (auto message = outside_range("a radius", size.radius, smallest_value, largest_value))
+        if (auto message =
+                outside_range(Message("size_radius"), size.radius, smallest_value, largest_value))
             return message;
         if (!size.mass) continue;
-        if (auto message = outside_range("a mass", *size.mass, smallest_value, largest_value))
+        if (auto message =
+                outside_range(Message("size_mass"), *size.mass, smallest_value, largest_value))
             return message;
     }
     return {};
@@ -138,8 +134,7 @@ void read_sizes(std::string_view text, const ParameterTexts& given, RunConfig& c
             if (valid) sizes.numbers[k] = *number;
         }
         if (!valid)
-            throw_usage_error(fmt::format("--sizes is '{}', but it must be {}, in finite numbers.",
-                                          text, form.text));
+            throw_usage_error(Message("not_of_this_form", {{"text", text}, {"form", form.text}}));
         config.sizes = sizes;
         return;
     }
@@ -191,13 +186,13 @@ RadiusBounds radius_bounds(const RunConfig& c) {
     return {least->radius, most->radius};
 }
 
-std::string radii_text(const RunConfig& c) {
-    if (c.mixture) return fmt::format("radius {} and {}", c.radius, c.mixture->radius);
-    if (!c.sizes) return fmt::format("radius {}", c.radius);
+Message radii_text(const RunConfig& c) {
+    if (c.mixture) return {"two_radii", {{"radius", c.radius}, {"second", c.mixture->radius}}};
+    if (!c.sizes) return {"one_radius", {{"radius", c.radius}}};
     if (c.sizes->law != SizeLaw::listed)
-        return fmt::format("radii of {}", std::get<std::string>(write_sizes(c)));
+        return {"radii_of_law", {{"law", std::get<std::string>(write_sizes(c))}}};
     const RadiusBounds bounds = radius_bounds(c);
-    return fmt::format("radii from {} to {}", bounds.smallest, bounds.largest);
+    return {"radii_between", {{"from", bounds.smallest}, {"to", bounds.largest}}};
 }
 
 std::vector<double> which_can_spin(const RunConfig& c, std::size_t n) {
@@ -249,28 +244,25 @@ std::vector<ParticleProperties> particles_of(const RunConfig& c) {
     return particles;
 }
 
-std::optional<std::string> problem_with_sizes(const RunConfig& c) {
+std::optional<Message> problem_with_sizes(const RunConfig& c) {
     if (!c.sizes) return {};
-    if (c.mixture)
-        return "--sizes and --mixture are both given, but both define the radii.\nhint: omit one "
-               "of them, or list all particles with --sizes file:FILE.";
+    if (c.mixture) return Message("sizes_and_mixture");
     const auto& [a, b, last] = c.sizes->numbers;
     switch (c.sizes->law) {
         case SizeLaw::listed:
             return problem_with_list(c);
         case SizeLaw::normal:
             if (!(b >= 0.0 && max_deviation * b < a))
-                return fmt::format(
-                    "--sizes has the mean {} and the standard deviation {}, but radii reach {} "
-                    "standard deviations below the mean and must be above 0.",
-                    a, b, max_deviation);
+                return Message("wide_sizes",
+                               {{"mean", a}, {"deviation", b}, {"most", max_deviation}});
             break;
         case SizeLaw::lognormal:
-            if (auto message = outside_range("the standard deviation", b, 0.0, max_log_deviation))
+            if (auto message = outside_range(Message("size_deviation"), b, 0.0, max_log_deviation))
                 return message;
             break;
         case SizeLaw::power:
-            if (auto message = outside_range("the exponent", a, -max_exponent, max_exponent))
+            if (auto message =
+                    outside_range(Message("size_exponent"), a, -max_exponent, max_exponent))
                 return message;
             break;
         case SizeLaw::uniform:
@@ -279,18 +271,16 @@ std::optional<std::string> problem_with_sizes(const RunConfig& c) {
     const double low = c.sizes->law == SizeLaw::power ? b : a;
     const double high = c.sizes->law == SizeLaw::power ? last : b;
     const bool is_interval = c.sizes->law == SizeLaw::power || c.sizes->law == SizeLaw::uniform;
-    if (auto message = outside_range("a radius", low, smallest_value, largest_value))
+    if (auto message = outside_range(Message("size_radius"), low, smallest_value, largest_value))
         return message;
     if (is_interval && !(high >= low && high <= largest_value))
-        return fmt::format(
-            "the largest radius in --sizes is {}, but it must be a number from the "
-            "smallest, {}, to {}.",
-            high, low, largest_value);
+        return Message("largest_below_smallest",
+                       {{"value", high}, {"from", low}, {"to", largest_value}});
     const RadiusBounds bounds = radius_bounds(c);
     if (auto message =
-            outside_range("the smallest radius", bounds.smallest, smallest_value, largest_value))
+            outside_range(Message("size_smallest"), bounds.smallest, smallest_value, largest_value))
         return message;
-    return outside_range("the largest radius", bounds.largest, smallest_value, largest_value);
+    return outside_range(Message("size_largest"), bounds.largest, smallest_value, largest_value);
 }
 
 }  // namespace swirl

@@ -49,9 +49,9 @@ RadiusBounds radius_bounds(const RunConfig& config);
 inline bool has_unequal_sizes(const RunConfig& c) { return c.mixture || c.sizes; }
 
 /// "radius 1", "radii 1 and 1.4", "radii of uniform:0.8:1.2": for messages.
-std::string radii_text(const RunConfig& config);
+Message radii_text(const RunConfig& config);
 
 /// Why the sizes are not possible; nothing if they are.
-std::optional<std::string> problem_with_sizes(const RunConfig& config);
+std::optional<Message> problem_with_sizes(const RunConfig& config);
 
 }  // namespace swirl

@@ -21,20 +21,16 @@ const std::vector<std::string> shape_words{"polygon", "circle", "line", "ellipse
 constexpr std::int64_t max_cycles = 1000;
 
 [[noreturn]] void reject_path(std::string_view text) {
-    throw_usage_error(
-        fmt::format("--path is '{}', but it must be polygon, circle, line, ellipse:RATIO, "
-                    "lissajous:P:Q[:DEGREES] or a file.{}",
-                    text, nearest_value_hint(text.substr(0, text.find(':')), shape_words)));
+    Message message("not_a_path", {{"text", text}});
+    add_nearest_value(message, text.substr(0, text.find(':')), shape_words);
+    throw_usage_error(message);
 }
 
 void read_ellipse(std::string_view text, RunConfig& config) {
     const auto parts = split(text, ":");
     const auto ratio = parts.size() == 2 ? read_number(parts[1]) : std::nullopt;
     if (!ratio || !(*ratio >= 0.0 && *ratio <= largest_value))
-        throw_usage_error(fmt::format(
-            "--path is '{}', but an ellipse needs the ratio of its y axis to its x axis, a number "
-            "from 0 to {}, for example ellipse:0.5.",
-            text, largest_value));
+        throw_usage_error(Message("not_an_ellipse", {{"text", text}, {"most", largest_value}}));
     config.path = PathShape::ellipse;
     config.curve.axis_ratio = *ratio;
 }
@@ -50,30 +46,27 @@ void read_lissajous(std::string_view text, RunConfig& config) {
     }
     const auto is_cycles = [](const auto& n) { return n && *n >= 1 && *n <= max_cycles; };
     if (!is_cycles(p) || !is_cycles(q) || !lead || !(std::fabs(*lead) <= 360.0))
-        throw_usage_error(fmt::format(
-            "--path is '{}', but a Lissajous figure needs its cycles along x and y in a period, "
-            "whole numbers from 1 to {}, and may have the lead of y from -360 to 360 degrees, for "
-            "example lissajous:2:3 or lissajous:1:2:45.",
-            text, max_cycles));
+        throw_usage_error(
+            Message("not_a_lissajous_figure", {{"text", text}, {"most", max_cycles}}));
     config.path = PathShape::lissajous;
     config.curve.x_cycles = *p;
     config.curve.y_cycles = *q;
     config.curve.y_lead = *lead;
 }
 
-[[noreturn]] void reject_point(std::size_t index, const std::string& why) {
-    throw_usage_error(fmt::format("point {} of --path {}", index + 1, why));
-}
+/// The number of a point in a message, from 1.
+MessageValue number_of(std::size_t index) { return {"point", static_cast<double>(index + 1)}; }
 
 PathPoint read_point(std::size_t index, std::string_view text) {
     const auto parts = split(text, ":");
     std::array<double, 3> numbers{};
     if (parts.size() != numbers.size())
-        reject_point(index, fmt::format("is '{}', but it must be T:X:Y.", text));
+        throw_usage_error(Message("not_a_point", {number_of(index), {"text", text}}));
     for (std::size_t c = 0; c < numbers.size(); ++c) {
         const auto number = read_number(parts[c]);
         if (!number)
-            reject_point(index, fmt::format("has '{}', but it must be a finite number.", parts[c]));
+            throw_usage_error(
+                Message("point_without_number", {number_of(index), {"text", parts[c]}}));
         numbers[c] = *number;
     }
     return {numbers[0], {numbers[1], numbers[2]}};
@@ -89,37 +82,34 @@ double amplitude_of(const std::vector<PathPoint>& points) {
 /// Shifts times to start at 0 and closes the path exactly, or rejects it.
 void validate_points(std::vector<PathPoint>& points) {
     if (points.size() < 3)
-        throw_usage_error(fmt::format(
-            "--path has {}, but a closed path needs at least three: the last one repeats the first "
-            "at the end of the period.",
-            counted(static_cast<std::int64_t>(points.size()), "point")));
+        throw_usage_error(
+            Message("too_few_points", {{"points", static_cast<double>(points.size())}}));
     if (points.size() > max_path_points)
         throw_usage_error(
-            fmt::format("--path has {} points, but at most {} are allowed.\nhint: keep fewer "
-                        "points per period.",
-                        points.size(), max_path_points));
+            Message("too_many_points", {{"points", static_cast<double>(points.size())},
+                                        {"most", static_cast<double>(max_path_points)}}));
     for (std::size_t k = 0; k < points.size(); ++k)
         for (const double value : {points[k].time, points[k].at.x, points[k].at.y})
             if (!(std::fabs(value) <= largest_value))
-                reject_point(k, fmt::format("has {}, but it must be a number from {} to {}.", value,
-                                            -largest_value, largest_value));
+                throw_usage_error(Message("point_out_of_range", {number_of(k),
+                                                                 {"value", value},
+                                                                 {"from", -largest_value},
+                                                                 {"to", largest_value}}));
     const double start = points.front().time, period = points.back().time - start;
     // Shorter segments would be lost in the rounding of the times.
     const double shortest = 1e-9 * period;
     for (std::size_t k = 0; k + 1 < points.size(); ++k) {
         const double from = points[k].time, to = points[k + 1].time;
         if (!(to > from && to - from >= shortest))
-            reject_point(k + 1,
-                         fmt::format("is at time {}, but the point before it is at {}: times "
-                                     "must increase.",
-                                     to, from));
+            throw_usage_error(
+                Message("point_too_early", {number_of(k + 1), {"time", to}, {"before", from}}));
     }
     const Vec2 gap = points.back().at - points.front().at;
     if (std::hypot(gap.x, gap.y) > 1e-9 * amplitude_of(points))
-        throw_usage_error(fmt::format(
-            "--path is not closed: it starts at ({}, {}) and ends at ({}, {}).\nhint: the last "
-            "point repeats the first at the end of the period.",
-            points.front().at.x, points.front().at.y, points.back().at.x, points.back().at.y));
+        throw_usage_error(Message("open_path", {{"x", points.front().at.x},
+                                                {"y", points.front().at.y},
+                                                {"x_end", points.back().at.x},
+                                                {"y_end", points.back().at.y}}));
     points.back().at = points.front().at;
     if (start != 0.0)
         for (PathPoint& p : points) p.time -= start;
@@ -135,9 +125,7 @@ void read_points(std::string_view text, const ParameterTexts& given, RunConfig& 
     if (!given.contains("amplitude"))
         config.amplitude = amplitude;
     else if (amplitude == 0.0 && config.amplitude > 0.0)
-        throw_usage_error(
-            fmt::format("--amplitude is {}, but the points of --path are all at the origin.",
-                        config.amplitude));
+        throw_usage_error(Message("points_at_origin", {{"amplitude", config.amplitude}}));
     if (!given.contains("period")) config.period = points.back().time;
     config.path = PathShape::points;
     config.curve.points = std::move(points);
@@ -257,29 +245,30 @@ ParameterValue write_path(const RunConfig& config) {
 }
 
 void read_direction(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "clockwise" && text != "counter-clockwise")
-        throw_usage_error(
-            fmt::format("--direction is '{}', but it must be counter-clockwise or clockwise.{}",
-                        text, nearest_value_hint(text, {"counter-clockwise", "clockwise"})));
+    if (text != "clockwise" && text != "counter-clockwise") {
+        const std::vector<std::string> choices{"counter-clockwise", "clockwise"};
+        Message message("not_a_choice",
+                        {{"name", "--direction"}, {"text", text}, {"choices", choices}});
+        add_nearest_value(message, text, choices);
+        throw_usage_error(message);
+    }
     config.clockwise = text == "clockwise";
 }
 ParameterValue write_direction(const RunConfig& config) {
     return config.clockwise ? ParameterValue("clockwise") : ParameterValue();
 }
 
-std::optional<std::string> problem_with_path(const RunConfig& c) {
+std::optional<Message> problem_with_path(const RunConfig& c) {
     if (c.path == PathShape::circle && c.shape() != Shape::disc)
-        return "--path is circle, but on it floor friction changes direction while a particle "
-               "slides, so its trajectory is not a parabola.\nhint: use --path polygon.";
+        return Message("circle_with_floor");
     const std::int64_t cycles = std::max(c.curve.x_cycles, c.curve.y_cycles);
     if (c.path == PathShape::lissajous && c.sides < 4 * cycles)
-        return fmt::format(
-            "--sides is {}, but a Lissajous figure with {} cycles needs at least {}.", c.sides,
-            cycles, 4 * cycles);
+        return Message(
+            "few_sides_of_lissajous_figure",
+            {{"sides", std::int64_t{c.sides}}, {"cycles", cycles}, {"least", 4 * cycles}});
     const double y_axis = c.amplitude * c.curve.axis_ratio;
     if (c.path == PathShape::ellipse && y_axis > largest_value)
-        return fmt::format("the y axis of --path ellipse is {}, but it must not exceed {}.", y_axis,
-                           largest_value);
+        return Message("wide_ellipse", {{"axis", y_axis}, {"most", largest_value}});
     return {};
 }
 

@@ -23,7 +23,7 @@ inline constexpr std::size_t max_path_points = 20'000;
 bool is_path_shape(std::string_view text);
 
 /// Why the path of this configuration is not possible; nothing if it is.
-std::optional<std::string> problem_with_path(const RunConfig& config);
+std::optional<Message> problem_with_path(const RunConfig& config);
 
 /// Events at vertices of the path in one period.
 std::int64_t path_vertices(const RunConfig& config);

@@ -35,6 +35,9 @@ std::vector<std::string> parameters_set_by_ramps(std::string_view text);
 /// The names of the parameters that can have a ramp.
 std::vector<std::string> ramp_parameter_names();
 
+/// The members that a ramp with this name changes: both friction coefficients for mu.
+std::vector<double RunConfig::*> members_of(const std::string& name);
+
 /// The configuration in one period, without ramps.
 RunConfig in_period(const RunConfig& config, std::int64_t period);
 /// True if a parameter has another value than in the period before.
@@ -42,8 +45,8 @@ bool changes_in_period(const RunConfig& config, std::int64_t period);
 /// The container, its surfaces and its floor in one period, without discs.
 InitialState surroundings_in(const RunConfig& config, std::int64_t period);
 
-/// Why a value of a ramp cannot be run, as an error message; nothing if all can.
-std::optional<std::string> problem_with_ramps(const RunConfig& config);
+/// Why a value of a ramp cannot be run; nothing if all can.
+std::optional<Message> problem_with_ramps(const RunConfig& config);
 
 /// The last change of the period T up to a time: whole periods and time at that moment.
 struct PeriodChange {

@@ -136,9 +136,15 @@ std::optional<std::string> nearest_name(std::string_view unknown,
     return best;
 }
 
+void add_nearest_value(Message& message, std::string_view text,
+                       const std::vector<std::string>& names) {
+    if (const auto nearest = nearest_name(text, names))
+        message += Message("did_you_mean", {{"name", *nearest}});
+}
+
 std::string nearest_value_hint(std::string_view text, const std::vector<std::string>& names) {
     const auto nearest = nearest_name(text, names);
-    return nearest ? "\nhint: did you mean '" + *nearest + "'?" : "";
+    return nearest ? Message("did_you_mean", {{"name", *nearest}}).english() : "";
 }
 
 }  // namespace swirl

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "swirl/io/read_number.hpp"
+#include "swirl/run/message.hpp"
 
 namespace swirl {
 
@@ -36,7 +37,10 @@ std::string counted(std::int64_t number, std::string_view noun);
 std::optional<std::string> nearest_name(std::string_view unknown,
                                         const std::vector<std::string>& names);
 
-/// "\nhint: did you mean 'disc'?" for the nearest name; "" if none is near.
+/// Adds the hint "did you mean 'disc'?" if a name is near.
+void add_nearest_value(Message& message, std::string_view text,
+                       const std::vector<std::string>& names);
+/// The same hint as text; "" if none is near.
 std::string nearest_value_hint(std::string_view text, const std::vector<std::string>& names);
 
 }  // namespace swirl
