@@ -10,7 +10,7 @@
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace floor_pattern_tests {
 
 constexpr int side = 260;           // pixels
 constexpr double radius = 90.0;     // of the container
@@ -151,5 +151,5 @@ TEST(FloorPattern, FrameWithoutARimStaysAsItIs) {
     EXPECT_EQ(cv::countNonZero(blank != 40), 0);
 }
 
-}  // namespace
+}  // namespace floor_pattern_tests
 }  // namespace swirl::tracking

@@ -16,7 +16,7 @@
 #include "track/video/recorded_motion.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace frame_jumps_tests {
 
 /// Jumps in a video that consists of the frames `shown` of another one.
 std::vector<FrameJump> jumps_with(const std::vector<int>& shown, double omega, Random& random) {
@@ -351,5 +351,5 @@ TEST(RecordedMotion, IsRejectedIfItCannotBeAveraged) {
     EXPECT_THAT(failure_of(hidden, 400), HasSubstr("gap"));
 }
 
-}  // namespace
+}  // namespace frame_jumps_tests
 }  // namespace swirl::tracking

@@ -8,7 +8,7 @@
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace lens_tests {
 
 constexpr Vec2 image_centre{319.5, 239.5};
 
@@ -122,5 +122,5 @@ TEST(Lens, StrongDistortionIsAWeightedMean) {
     EXPECT_LT(k, 0.033);
 }
 
-}  // namespace
+}  // namespace lens_tests
 }  // namespace swirl::tracking

@@ -12,7 +12,7 @@
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace link_tests {
 
 /// The best partial assignment: as many pairs as possible, then the least sum.
 struct Best {
@@ -305,5 +305,5 @@ TEST(Linking, StopsOnRequest) {
     EXPECT_EQ(calls, 30);
 }
 
-}  // namespace
+}  // namespace link_tests
 }  // namespace swirl::tracking

@@ -13,7 +13,7 @@
 #include "track/video/circles.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace shading_detection_tests {
 
 constexpr double ball_radius = 15.0;
 constexpr std::size_t balls = 28;
@@ -165,5 +165,5 @@ TEST(CircleFit, FindsCentreToATenthOfAPixel) {
     }
 }
 
-}  // namespace
+}  // namespace shading_detection_tests
 }  // namespace swirl::tracking

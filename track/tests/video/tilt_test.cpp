@@ -8,7 +8,7 @@
 #include "swirl/math/unit_circle.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace tilt_tests {
 
 constexpr int side = 320;
 constexpr double radius = 110.0, amplitude = 24.0, radians = pi / 180.0;
@@ -150,5 +150,5 @@ TEST(Tilt, OvalContainerContradictsThePerspective) {
     EXPECT_TRUE(find_tilt(video_of(camera, 0.01), {}, rim, lens).oval);
 }
 
-}  // namespace
+}  // namespace tilt_tests
 }  // namespace swirl::tracking

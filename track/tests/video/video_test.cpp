@@ -18,7 +18,7 @@
 #include "track/video/circles.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace video_tests {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -234,5 +234,5 @@ TEST(CameraMotion, ShakeIsTheScatterFromFrameToFrame) {
     EXPECT_NEAR(motion.drift, 8.0, 2.5);   // the median of 11 frames still scatters
 }
 
-}  // namespace
+}  // namespace video_tests
 }  // namespace swirl::tracking

@@ -9,7 +9,7 @@
 #include "track/video/tracking_steps.hpp"
 
 namespace swirl::tracking {
-namespace {
+namespace wall_bounces_tests {
 
 /// A disc of radius 15 pixels that flies freely in a swirled container and bounces off its wall,
 /// about four times per period.
@@ -182,5 +182,5 @@ TEST(ContactDistance, DeterminesTheLensDistortion) {
     }
 }
 
-}  // namespace
+}  // namespace wall_bounces_tests
 }  // namespace swirl::tracking
