@@ -35,6 +35,10 @@ PyObject *failure_type = nullptr, *file_error_type = nullptr;
 PYBIND11_MODULE(_engine, module) {
     namespace python = swirl::python;
     using python::failure_type, python::file_error_type;
+    // The first lines of a docstring are the signature, of which tests/python/stubs_test.py makes the
+    // stub file.
+    pybind11::options options;
+    options.disable_function_signatures();
     failure_type = PyErr_NewExceptionWithDoc(
         "swirl.Failure", "The call was valid, but the run failed.", PyExc_RuntimeError, nullptr);
     file_error_type = PyErr_NewExceptionWithDoc("swirl.FileError",
@@ -45,9 +49,12 @@ PYBIND11_MODULE(_engine, module) {
     pybind11::register_exception_translator([](std::exception_ptr thrown) {
         if (thrown) python::translate(thrown, failure_type, file_error_type);
     });
-    module.def("write_file", [](const std::string& path, const pybind11::bytes& content) {
-        swirl::write_file_atomically(path, std::string_view(content));
-    });
+    module.def(
+        "write_file",
+        [](const std::string& path, const pybind11::bytes& content) {
+            swirl::write_file_atomically(path, std::string_view(content));
+        },
+        "write_file(path: str, content: bytes) -> None");
     python::bind_snapshots(module);
     python::bind_simulation(module);
     python::bind_runs(module);

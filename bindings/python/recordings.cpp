@@ -214,21 +214,31 @@ py::tuple analyse(Recording& recording, const std::vector<std::string>& names, b
 
 void bind_recordings(py::module_& module) {
     py::class_<Recording>(module, "Recording")
-        .def_static("open", &Recording::open)
-        .def_static("tracks", &tracks)
-        .def_static("read_tracks", &read_tracks)
-        .def_static("of_frames",
-                    [](const std::shared_ptr<Frames>& frames) { return recording_of(frames); })
-        .def("__len__", &Recording::size)
-        .def("frames",
-             [](Recording& r, std::uint64_t begin, std::uint64_t end, std::uint64_t step) {
-                 return r.frames(begin, std::min(end, r.size()), std::max<std::uint64_t>(step, 1));
-             })
-        .def_property_readonly("same_discs", &Recording::same_discs)
-        .def_property_readonly("complete", &Recording::complete)
-        .def_readonly("remarks", &Recording::remarks)
-        .def("about", &Recording::about)
-        .def("analyse", &analyse);
+        .def_static("open", &Recording::open, "open(file: str) -> Recording")
+        .def_static(
+            "tracks", &tracks,
+            R"(tracks(frame: npt.NDArray[Any], particle: npt.NDArray[Any], x: npt.NDArray[Any],
+    y: npt.NDArray[Any], radius: npt.NDArray[Any], time: npt.NDArray[Any],
+    scale: dict[str, Any], max_invalid: float) -> Recording)")
+        .def_static("read_tracks", &read_tracks,
+                    "read_tracks(file: str) -> dict[str, npt.NDArray[Any]]")
+        .def_static(
+            "of_frames", [](const std::shared_ptr<Frames>& frames) { return recording_of(frames); },
+            "of_frames(frames: Frames) -> Recording")
+        .def("__len__", &Recording::size, "__len__(self) -> int")
+        .def(
+            "frames",
+            [](Recording& r, std::uint64_t begin, std::uint64_t end, std::uint64_t step) {
+                return r.frames(begin, std::min(end, r.size()), std::max<std::uint64_t>(step, 1));
+            },
+            "frames(self, begin: int, end: int, step: int) -> Frames")
+        .def_property_readonly("same_discs", &Recording::same_discs, "-> bool")
+        .def_property_readonly("complete", &Recording::complete, "-> bool")
+        .def_readonly("remarks", &Recording::remarks, "-> str")
+        .def("about", &Recording::about, "about(self) -> dict[str, str]")
+        .def("analyse", &analyse,
+             R"(analyse(self, measured: list[str], all: bool, warmup: float) -> tuple[list[Report],
+    _Estimate, _Estimate, int, str])");
 }
 
 }  // namespace swirl::python

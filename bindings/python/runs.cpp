@@ -207,23 +207,37 @@ void bind_runs(py::module_& module) {
                             run_files(files), has_series, command);
         },
         py::arg("parameters"), py::arg("measured"), py::arg("command"), py::arg("progress"),
-        py::arg("frames_per_period"), py::arg("period_ended"), py::arg("files"), py::arg("series"));
-    module.def("resolve",
-               [](const py::dict& given) { return config_text(resolve(texts_of(given))); });
-    module.def("measurement_list",
-               [](const std::string& list) { return read_measurement_list(list); });
-    module.def("measurement_kinds", [] {
-        py::list kinds;
-        for (const MeasurementKind& kind : measurement_kinds())
-            kinds.append(py::make_tuple(kind.name, kind.header, kind.description));
-        return kinds;
-    });
-    module.def("estimates", &estimates);
-    module.def("with_error", &with_error);
-    module.def("shortened", [](const std::string& text) { return shortened(text); });
-    module.def("parameters", &parameter_table);
-    module.def("version", &version);
-    module.def("build_description", &build_description);
+        py::arg("frames_per_period"), py::arg("period_ended"), py::arg("files"), py::arg("series"),
+        R"(run(parameters: dict[str, Any], measured: list[str], command: str,
+    progress: Optional[Callable[[float, int, float], object]],
+    frames_per_period: int, period_ended: Optional[Callable[[Frames], None]],
+    files: dict[str, Any], series: bool) -> tuple[str, list[Report],
+    Optional[BaseException], str, str, Optional[_SeriesColumns]])");
+    module.def(
+        "resolve", [](const py::dict& given) { return config_text(resolve(texts_of(given))); },
+        "resolve(parameters: dict[str, Any]) -> str");
+    module.def(
+        "measurement_list", [](const std::string& list) { return read_measurement_list(list); },
+        "measurement_list(names: str) -> list[str]");
+    module.def(
+        "measurement_kinds",
+        [] {
+            py::list kinds;
+            for (const MeasurementKind& kind : measurement_kinds())
+                kinds.append(py::make_tuple(kind.name, kind.header, kind.description));
+            return kinds;
+        },
+        "measurement_kinds() -> list[tuple[str, str, str]]");
+    module.def("estimates", &estimates,
+               "estimates(sums: _Floats, weights: _Floats) -> tuple[_Floats, _Floats, _Floats]");
+    module.def("with_error", &with_error, "with_error(mean: float, error: float) -> str");
+    module.def(
+        "shortened", [](const std::string& text) { return shortened(text); },
+        "shortened(text: str) -> str");
+    module.def("parameters", &parameter_table,
+               "parameters() -> list[tuple[str, str, str, str, str, float, float, str]]");
+    module.def("version", &version, "version() -> str");
+    module.def("build_description", &build_description, "build_description() -> str");
     module.attr("samples_per_period") = samples_per_period;
 }
 

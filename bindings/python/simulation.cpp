@@ -406,21 +406,32 @@ void bind_events(py::module_& module) {
     PYBIND11_NUMPY_DTYPE(EventRow, whole_periods, clock, time, kind, i, j, normal_x, normal_y,
                          normal_impulse, tangential_impulse, overlap);
     module.attr("event_dtype") = py::dtype::of<EventRow>();
-    py::class_<Event> type(module, "Event",
-                           "An event: its kind (swirl.EventKind), its time (whole_periods and\n"
-                           "clock), and the discs i and j.");
+    py::class_<Event> type(
+        module, "Event",
+        R"(An event: its kind (EventKind), its time, and the discs i and j (j = i at the wall).)");
     forbid_construction(type);
-    type.def_readonly("whole_periods", &Event::periods)
-        .def_readonly("clock", &Event::clock)
-        .def_property_readonly("kind", [](const Event& e) { return static_cast<int>(e.kind); })
-        .def_readonly("i", &Event::i)
-        .def_readonly("j", &Event::j)
+    type.def_readonly("whole_periods", &Event::periods, "-> int")
+        .def_readonly("clock", &Event::clock, "-> float")
         .def_property_readonly(
-            "normal", [](const Event& e) { return py::make_tuple(e.normal.x, e.normal.y); })
-        .def_property_readonly("normal_impulse", [](const Event& e) { return e.impulse.normal; })
-        .def_property_readonly("tangential_impulse",
-                               [](const Event& e) { return e.impulse.tangential; })
-        .def_readonly("overlap", &Event::overlap);
+            "kind", [](const Event& e) { return static_cast<int>(e.kind); }, "-> int")
+        .def_readonly("i", &Event::i, "-> int")
+        .def_readonly("j", &Event::j, "-> int")
+        .def_property_readonly(
+            "normal", [](const Event& e) { return py::make_tuple(e.normal.x, e.normal.y); },
+            R"(-> tuple[float, float]
+
+Unit vector from i to j, or from i to the wall.)")
+        .def_property_readonly(
+            "normal_impulse", [](const Event& e) { return e.impulse.normal; }, R"(-> float
+
+Impulse on j or on the wall, along the normal.)")
+        .def_property_readonly(
+            "tangential_impulse", [](const Event& e) { return e.impulse.tangential; }, R"(-> float
+
+Impulse on j or on the wall, along (n_y, −n_x).)")
+        .def_readonly("overlap", &Event::overlap, R"(-> float
+
+Depth of the contact: a rounding error.)");
 }
 
 }  // namespace
@@ -434,41 +445,56 @@ void bind_simulation(py::module_& module) {
                          const std::optional<Numbers>& path_times) {
                  return make_simulation(parameters, discs_in(discs), path, path_times);
              }),
-             py::arg("parameters"), py::arg("discs"), py::arg("path"), py::arg("path_times"))
-        .def("step", &Self::step)
-        .def("next", &Self::next)
-        .def("run", &Self::run)
-        .def("advance", &Self::advance)
-        .def("advance_periods", &Self::advance_periods)
-        .def("advance_to", &Self::advance_to)
-        .def("sample", &Self::sample)
-        .def("snapshot", &Self::snapshot)
-        .def("to_bytes", [](Self& s) { return py::bytes(s.to_bytes()); })
-        .def_static("from_bytes",
-                    [](const py::bytes& b) { return Self::from_bytes(std::string_view(b)); })
-        .def("config", &Self::config)
-        .def_property_readonly("is_custom", &Self::is_custom)
-        .def_property_readonly("period", &Self::period)
-        .def_property_readonly("time", &Self::time)
-        .def_property_readonly("container_radius", &Self::container_radius)
-        .def("path", &Self::path)
-        .def("__len__",
-             [](Self& self) { return self.exclusively([](Simulation& s) { return s.size(); }); })
-        .def("counts",
-             [](Self& self) {
-                 const EventCounts c = self.exclusively([](Simulation& s) { return s.events(); });
-                 return py::make_tuple(c.disc_disc, c.disc_wall, c.path_vertex, c.elastic_by_tc,
-                                       c.begins_to_roll);
-             })
-        .def("now",
-             [](Self& self) {
-                 return self.exclusively(
-                     [](Simulation& s) { return py::make_tuple(s.periods(), s.clock()); });
-             })
-        .def("state_hash", [](Self& self) {
-            return self.exclusively(
-                [](Simulation& s) { return fmt::format("{:016x}", s.state_hash()); });
-        });
+             py::arg("parameters"), py::arg("discs"), py::arg("path"), py::arg("path_times"),
+             R"(__init__(self, parameters: dict[str, Any], discs: dict[str, _Floats],
+    path: Optional[_Floats], path_times: Optional[_Floats]) -> None)")
+        .def("step", &Self::step, "step(self, count: int) -> npt.NDArray[np.void]")
+        .def("next", &Self::next, "next(self) -> Event")
+        .def("run", &Self::run, "run(self, count: int) -> None")
+        .def("advance", &Self::advance, "advance(self, time: float) -> None")
+        .def("advance_periods", &Self::advance_periods,
+             "advance_periods(self, number: float) -> None")
+        .def("advance_to", &Self::advance_to,
+             "advance_to(self, whole_periods: int, clock: float) -> None")
+        .def("sample", &Self::sample, "sample(self, count: int, per_period: int) -> Frames")
+        .def("snapshot", &Self::snapshot, "snapshot(self) -> Snapshot")
+        .def(
+            "to_bytes", [](Self& s) { return py::bytes(s.to_bytes()); }, "to_bytes(self) -> bytes")
+        .def_static(
+            "from_bytes", [](const py::bytes& b) { return Self::from_bytes(std::string_view(b)); },
+            "from_bytes(data: bytes) -> Simulation")
+        .def("config", &Self::config, "config(self) -> str")
+        .def_property_readonly("is_custom", &Self::is_custom, "-> bool")
+        .def_property_readonly("period", &Self::period, "-> float")
+        .def_property_readonly("time", &Self::time, "-> float")
+        .def_property_readonly("container_radius", &Self::container_radius, "-> float")
+        .def("path", &Self::path, "path(self) -> list[float]")
+        .def(
+            "__len__",
+            [](Self& self) { return self.exclusively([](Simulation& s) { return s.size(); }); },
+            "__len__(self) -> int")
+        .def(
+            "counts",
+            [](Self& self) {
+                const EventCounts c = self.exclusively([](Simulation& s) { return s.events(); });
+                return py::make_tuple(c.disc_disc, c.disc_wall, c.path_vertex, c.elastic_by_tc,
+                                      c.begins_to_roll);
+            },
+            "counts(self) -> tuple[int, int, int, int, int]")
+        .def(
+            "now",
+            [](Self& self) {
+                return self.exclusively(
+                    [](Simulation& s) { return py::make_tuple(s.periods(), s.clock()); });
+            },
+            "now(self) -> tuple[int, float]")
+        .def(
+            "state_hash",
+            [](Self& self) {
+                return self.exclusively(
+                    [](Simulation& s) { return fmt::format("{:016x}", s.state_hash()); });
+            },
+            "state_hash(self) -> str");
 }
 
 }  // namespace swirl::python

@@ -131,20 +131,38 @@ py::tuple compare_curves(const std::vector<double>& parameters,
 }  // namespace
 
 void bind_statistics(py::module_& module) {
-    module.def("over_replicates", &over_replicates);
-    module.def("is_direction", [](const std::string& name) { return is_direction(name); });
-    module.def("replicate_weights", [](const std::vector<double>& periods, bool by_time) {
-        return replicate_weights(periods, by_time);
-    });
+    module.def("over_replicates", &over_replicates,
+               R"(over_replicates(means: npt.ArrayLike, errors: npt.ArrayLike,
+    effective: npt.ArrayLike, weights: Sequence[float],
+    directions: bool) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats])");
+    module.def(
+        "is_direction", [](const std::string& name) { return is_direction(name); },
+        "is_direction(name: str) -> bool");
+    module.def(
+        "replicate_weights",
+        [](const std::vector<double>& periods, bool by_time) {
+            return replicate_weights(periods, by_time);
+        },
+        "replicate_weights(periods: Sequence[float], by_time: bool) -> list[float]");
     module.attr("min_averaged_periods") = min_averaged_periods;
-    module.def("zero_crossing", &zero_crossing);
-    module.def("read_own_points", [](const std::string& file, std::optional<double> period) {
-        return tuples_of(read_own_points(file, period));
-    });
-    module.def("compare_curves", &compare_curves);
-    module.def("estimate_of_series", &estimate_of_values);
-    module.def("checksum",
-               [](const std::string& text) { return fmt::format("{:016x}", checksum(text)); });
+    module.def("zero_crossing", &zero_crossing,
+               R"(zero_crossing(discs: Sequence[float], means: Sequence[float],
+    errors: Sequence[float]) -> dict[str, Any])");
+    module.def(
+        "read_own_points",
+        [](const std::string& file, std::optional<double> period) {
+            return tuples_of(read_own_points(file, period));
+        },
+        "read_own_points(file: str, period: Optional[float]) -> _Curve");
+    module.def("compare_curves", &compare_curves,
+               R"(compare_curves(parameters: list[float], curves: list[_Curve],
+    measured: _Curve) -> tuple[_Curve, list[float],
+    Optional[tuple[float, float, float, float, int, bool]]])");
+    module.def("estimate_of_series", &estimate_of_values,
+               "estimate_of_series(values: Sequence[float]) -> tuple[float, float, float, float]");
+    module.def(
+        "checksum", [](const std::string& text) { return fmt::format("{:016x}", checksum(text)); },
+        "checksum(text: str) -> str");
 }
 
 }  // namespace swirl::python

@@ -257,43 +257,74 @@ void bind_studies(py::module_& module) {
     py::class_<SweepPlan>(module, "Plan")
         .def(py::init(&plan_of), py::arg("parameters"), py::arg("seeds"), py::arg("measured"),
              py::arg("frames"), py::arg("chain") = "", py::arg("series") = false,
-             py::arg("rows") = py::none())
-        .def("__len__", &SweepPlan::points)
-        .def_property_readonly("axes",
-                               [](const SweepPlan& plan) {
-                                   py::dict axes;
-                                   for (const SweepAxis& axis : plan.axes)
-                                       axes[py::str(axis.name)] = axis.values;
-                                   return axes;
-                               })
-        .def("points", &points_of)
-        .def("write",
-             [](const SweepPlan& plan, const std::string& folder) { write_plan(folder, plan); });
-    module.def("grow", [](const std::string& folder, const py::dict& more, std::int64_t replicas,
-                          const std::vector<std::string>& measured, const Rows& rows) {
-        const SweepPlan before = read_plan(folder);
-        const ParameterTexts texts = lists_of(more);
-        const auto plan = [&] {
-            if (!rows) return grown(before, texts, replicas, measured);
-            return grown(before, point_rows(*rows, std::max<std::int64_t>(replicas, 1)), texts,
-                         measured);
-        };
-        write_plan(folder, plan(), &before);
-    });
-    module.def("run_identity", [](const py::dict& given) {
-        return fmt::format("{:016x}", identity_of(resolve(texts_of(given))));
-    });
-    module.def("result_files", &result_files);
+             py::arg("rows") = py::none(),
+             R"(__init__(self, parameters: dict[str, Any], seeds: int, measured: list[str],
+    frames: int, chain: str = "", series: bool = False,
+    rows: Optional[list[dict[str, Any]]] = None) -> None)")
+        .def("__len__", &SweepPlan::points, "__len__(self) -> int")
+        .def_property_readonly(
+            "axes",
+            [](const SweepPlan& plan) {
+                py::dict axes;
+                for (const SweepAxis& axis : plan.axes) axes[py::str(axis.name)] = axis.values;
+                return axes;
+            },
+            "-> dict[str, list[str]]")
+        .def("points", &points_of, "points(self) -> list[dict[str, str]]")
+        .def(
+            "write",
+            [](const SweepPlan& plan, const std::string& folder) { write_plan(folder, plan); },
+            "write(self, folder: str) -> None");
+    module.def(
+        "grow",
+        [](const std::string& folder, const py::dict& more, std::int64_t replicas,
+           const std::vector<std::string>& measured, const Rows& rows) {
+            const SweepPlan before = read_plan(folder);
+            const ParameterTexts texts = lists_of(more);
+            const auto plan = [&] {
+                if (!rows) return grown(before, texts, replicas, measured);
+                return grown(before, point_rows(*rows, std::max<std::int64_t>(replicas, 1)), texts,
+                             measured);
+            };
+            write_plan(folder, plan(), &before);
+        },
+        R"(grow(folder: str, more: dict[str, Any], seeds: int, measured: Sequence[str],
+    rows: Optional[list[dict[str, Any]]]) -> None)");
+    module.def(
+        "run_identity",
+        [](const py::dict& given) {
+            return fmt::format("{:016x}", identity_of(resolve(texts_of(given))));
+        },
+        "run_identity(parameters: dict[str, Any]) -> str");
+    module.def("result_files", &result_files,
+               R"(result_files(folder: str, rows: list[dict[str, Any]],
+    seeds: int) -> list[list[tuple[str, str]]])");
     module.def("sweep", &sweep, py::arg("folder"), py::arg("threads"), py::arg("progress"),
-               py::arg("rows") = py::none());
-    module.def("collect", &collect);
+               py::arg("rows") = py::none(),
+               R"(sweep(folder: str, threads: int,
+    progress: Optional[Callable[[float, float, int], object]],
+    rows: Optional[list[dict[str, Any]]] = None) -> tuple[int, int, int, str])");
+    module.def("collect", &collect,
+               "collect(folder: str) -> tuple[str, int, int, int, int, int, int, int, str]");
     module.def("crossing", &crossing, py::arg("folder"), py::arg("parameters"),
                py::arg("min_discs"), py::arg("max_discs"), py::arg("tolerance"), py::arg("rate"),
                py::arg("threads"), py::arg("command"), py::arg("progress"),
-               py::arg("min_periods") = CrossingSettings{}.min_periods);
-    module.def("write_map_plan", &write_map_plan);
-    module.def("grow_map", &grow_map);
-    module.def("make_map", &make_map);
+               py::arg("min_periods") = CrossingSettings{}.min_periods,
+               R"(crossing(folder: Optional[str], parameters: dict[str, Any], min_discs: int,
+    max_discs: int, tolerance: float, rate: str, threads: int, command: str,
+    progress: Optional[Callable[[str, float], object]],
+    min_periods: int = 50) -> tuple[str, str])");
+    module.def("write_map_plan", &write_map_plan,
+               R"(write_map_plan(folder: str, x: dict[str, Any], y: dict[str, Any], quantity: str,
+    rate: str, level: float, change: Optional[float], tolerance: float, steps: int,
+    seeds: int, min_discs: int, max_discs: int, parameters: dict[str, Any]) -> None)");
+    module.def("grow_map", &grow_map,
+               R"(grow_map(folder: str, x: dict[str, Any], y: dict[str, Any], steps: int,
+    seeds: Optional[int], min_discs: Optional[int],
+    max_discs: Optional[int]) -> None)");
+    module.def("make_map", &make_map,
+               R"(make_map(folder: str, threads: int,
+    progress: Optional[Callable[[int, int, int], object]]) -> tuple[str, str, str])");
 }
 
 }  // namespace swirl::python

@@ -64,26 +64,11 @@ def test_mypy_infers_types_of_results(tmp_path, cache):
     assert '"Rotation" has no attribute "by_tim"' in done.stdout and done.stdout.count("error") <= 2
 
 
-def test_stubs_match_the_module():
-    from swirl import _engine
-
-    with open(os.path.join(PACKAGE, "_engine.pyi"), encoding="utf-8") as file:
-        stubs = file.read()
-    named = set(re.findall(r"^(?:class|def) (\w+)|^(\w+):", stubs, re.M))
-    named = {a or b for a, b in named}
-    assert named == {name for name in dir(_engine) if not name.startswith("__")}
-    for kind in re.findall(r"^class (\w+)(?=[:(])", stubs, re.M):
-        body = re.search(rf"^class {kind}\b.*?(?=^\S)", stubs, re.M | re.S)[0]
-        there = getattr(_engine, kind)
-        for method in re.findall(r"^    def (\w+)", body, re.M):
-            assert hasattr(there, method), (kind, method)
-
-
 def test_everything_public_has_a_docstring():
     for name in swirl.__all__:
         thing = getattr(swirl, name)
         if inspect.isclass(thing) or inspect.isfunction(thing):
-            assert name in ("Snapshot", "Frames", "Event") or inspect.getdoc(thing), name
+            assert inspect.getdoc(thing), name
 
 
 def test_import_needs_only_numpy():

@@ -4,7 +4,6 @@ it:
     SWIRL_WRITE_DOCS=1 ctest --test-dir build/tests -R python.reference
 """
 
-import ast
 import inspect
 import os
 
@@ -24,36 +23,17 @@ and [parameters.md](parameters.md) lists the parameters of runs.
 """
 
 
-def stub_docstrings():
-    """The docstrings of the compiled classes, which are in the stub file."""
-    with open(
-        os.path.join(os.path.dirname(swirl.__file__), "_engine.pyi"), encoding="utf-8"
-    ) as file:
-        tree = ast.parse(file.read())
-    return {
-        node.name: ast.get_docstring(node) for node in tree.body if isinstance(node, ast.ClassDef)
-    }
-
-
 def row(name, docstring, is_call=False):
     first = " ".join(docstring.split("\n\n")[0].split())
     return f"| `{name}{'()' if is_call else ''}` | {first.split('. ')[0].rstrip('.:')} |\n"
 
 
 def reference():
-    stubs, rows = stub_docstrings(), []
+    rows = []
     for name in sorted(swirl.__all__, key=str.lower):
         thing = getattr(swirl, name)
-        # An internal class may have the name of a public one (Recording).
-        compiled = name in stubs and thing is getattr(swirl._engine, name)
-        if compiled or callable(thing):
-            rows.append(
-                row(
-                    f"swirl.{name}",
-                    stubs[name] if compiled else inspect.getdoc(thing),
-                    not inspect.isclass(thing),
-                )
-            )
+        if callable(thing):
+            rows.append(row(f"swirl.{name}", inspect.getdoc(thing), not inspect.isclass(thing)))
     for name, thing in sorted(vars(swirl.plot).items()):
         if (
             inspect.isfunction(thing)

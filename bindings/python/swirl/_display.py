@@ -72,6 +72,7 @@ def _frames_reduced(self: _engine.Frames) -> Any:
 
 
 def _snapshot_plot(self: _engine.Snapshot, *, ax: Any = None, **style: Any) -> Any:
+    """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
     from . import plot
 
     return plot.snapshot(self, ax=ax, **style)

@@ -1,5 +1,5 @@
-"""The compiled module (bindings/python/*.cpp). Arrays of Snapshot and Frames are read-only views that
-keep their data alive and never change."""
+"""The compiled module (bindings/python/*.cpp). tests/python/stubs_test.py makes this file of its
+docstrings."""
 
 from collections.abc import Callable, Sequence
 from typing import Any, Optional
@@ -10,6 +10,9 @@ import numpy.typing as npt
 from ._results import Report
 
 _Floats = npt.NDArray[np.float64]
+_Estimate = tuple[float, float, float, int]  # mean, error, effective samples, blocks
+_Curve = list[tuple[float, float, float]]  # N, mean, error
+_SeriesColumns = tuple[list[str], list[str], list[str], _Floats]
 
 class Failure(RuntimeError):
     """The call was valid, but the run failed."""
@@ -18,11 +21,12 @@ class FileError(OSError):
     """A file is missing, damaged or of another kind."""
 
 class Snapshot:
-    """All discs and the container at one instant in the lab frame. The swirl centre is the origin.
+    """All discs and the container at one instant in the lab frame. The swirl centre is the
+    origin.
 
     Lengths are in disc radii, and the container's speed is 1. A value that is not available is NaN,
-    such as the spin of a disc in a camera's tracks.
-    """
+    such as the spin of a disc in a camera's tracks. Arrays are read-only views that keep their data
+    alive and never change."""
 
     @property
     def position(self) -> _Floats:
@@ -37,22 +41,14 @@ class Snapshot:
     def spin(self) -> _Floats:
         """[disc], counter-clockwise, in radians per unit of time"""
     @property
-    def rolling_spin(self) -> Optional[_Floats]:
-        """[disc, xy], horizontal angular velocity of spheres; None for discs"""
+    def radius(self) -> _Floats:
+        """[disc]"""
     @property
-    def pinned(self) -> _Floats:
-        """[disc], 1 if the disc is pinned, 0 if not. NaN if that is unknown: it takes the frames before
-        and after, at least 400 per period."""
+    def mass(self) -> _Floats:
+        """[disc]"""
     @property
-    def resident(self) -> _Floats:
-        """[disc], 1 if the disc is resident at the wall, 0 if not. NaN if that is unknown: it takes the
-        frames before and after, at least 120 per period."""
-    @property
-    def radius(self) -> _Floats: ...
-    @property
-    def mass(self) -> _Floats: ...
-    @property
-    def inertia(self) -> _Floats: ...
+    def inertia(self) -> _Floats:
+        """[disc]"""
     @property
     def can_spin(self) -> _Floats:
         """[disc], 1, or 0 for a particle that cannot spin"""
@@ -66,6 +62,19 @@ class Snapshot:
     def container_radius(self) -> float: ...
     @property
     def period(self) -> float: ...
+    @property
+    def pinned(self) -> _Floats:
+        """[disc], 1 if the disc is pinned, 0 if not
+
+        NaN if that is unknown: it takes the frames before and after, at least 400 per period."""
+    @property
+    def resident(self) -> _Floats:
+        """[disc], 1 if the disc is resident at the wall, 0 if not
+
+        NaN if that is unknown: it takes the frames before and after, at least 120 per period."""
+    @property
+    def rolling_spin(self) -> Optional[_Floats]:
+        """[disc, xy], horizontal angular velocity of spheres; None for discs"""
     @property
     def whole_periods(self) -> int:
         """Whole periods since the start."""
@@ -82,18 +91,23 @@ class Snapshot:
     def rotation(self) -> tuple[float, float]:
         """The cluster's rotation rate in units of Ω: the paper's mean over discs, and that of the
         best-fitting rigid body (src/swirl/measure/cluster_rotation.hpp)."""
+    def to_bytes(self) -> bytes: ...
+    def __len__(self) -> int: ...
     def to_pandas(self) -> Any:
         """A pandas DataFrame, one row per disc."""
     def to_xarray(self) -> Any:
         """An xarray Dataset with the dimensions disc and xy."""
     def plot(self, *, ax: Any = None, **style: Any) -> Any:
         """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
-    def to_bytes(self) -> bytes: ...
-    def _repr_svg_(self) -> str: ...
-    def __len__(self) -> int: ...
+    def _repr_svg_(self, width: int = 320) -> str:
+        """The container in the frame of the snapshot, y upwards. A line in each disc shows its
+        angle."""
 
 class Frames:
-    """Snapshots of the same discs in order of time, as columns: frames.position[frame, disc]."""
+    """Snapshots of the same discs in order of time, as columns: frames.position[frame, disc].
+
+    frames[k] is a Snapshot. Arrays are read-only views that keep their data alive and never change.
+    """
 
     @property
     def position(self) -> _Floats:
@@ -103,22 +117,19 @@ class Frames:
         """[frame, disc, xy]"""
     @property
     def angle(self) -> _Floats:
-        """[frame, disc]"""
+        """[frame, disc], in radians, not reduced to one turn"""
     @property
     def spin(self) -> _Floats:
-        """[frame, disc]"""
+        """[frame, disc], counter-clockwise, in radians per unit of time"""
     @property
-    def pinned(self) -> _Floats:
-        """[frame, disc], as in Snapshot"""
+    def radius(self) -> _Floats:
+        """[disc]"""
     @property
-    def resident(self) -> _Floats:
-        """[frame, disc], as in Snapshot"""
+    def mass(self) -> _Floats:
+        """[disc]"""
     @property
-    def radius(self) -> _Floats: ...
-    @property
-    def mass(self) -> _Floats: ...
-    @property
-    def inertia(self) -> _Floats: ...
+    def inertia(self) -> _Floats:
+        """[disc]"""
     @property
     def can_spin(self) -> _Floats:
         """[disc], 1, or 0 for a particle that cannot spin"""
@@ -133,7 +144,15 @@ class Frames:
     @property
     def period(self) -> float: ...
     @property
-    def discs(self) -> int: ...
+    def pinned(self) -> _Floats:
+        """[frame, disc], 1 if the disc is pinned, 0 if not
+
+        NaN if that is unknown: it takes the frames before and after, at least 400 per period."""
+    @property
+    def resident(self) -> _Floats:
+        """[frame, disc], 1 if the disc is resident at the wall, 0 if not
+
+        NaN if that is unknown: it takes the frames before and after, at least 120 per period."""
     @property
     def whole_periods(self) -> npt.NDArray[np.int64]:
         """[frame]"""
@@ -143,15 +162,18 @@ class Frames:
     @property
     def time(self) -> _Floats:
         """[frame]"""
+    @property
+    def discs(self) -> int: ...
     def m_frame(self) -> Frames:
         """All frames in the M-frame, as Snapshot.m_frame()."""
+    def to_bytes(self) -> bytes: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, k: int) -> Snapshot: ...
     def to_pandas(self) -> Any:
         """A pandas DataFrame, one row per disc of each frame."""
     def to_xarray(self) -> Any:
         """An xarray Dataset with the dimensions frame, disc and xy."""
-    def to_bytes(self) -> bytes: ...
-    def __len__(self) -> int: ...
-    def __getitem__(self, k: int) -> Snapshot: ...
+    def _repr_html_(self) -> str: ...
 
 class Event:
     """An event: its kind (EventKind), its time, and the discs i and j (j = i at the wall)."""
@@ -178,6 +200,7 @@ class Event:
     @property
     def overlap(self) -> float:
         """Depth of the contact: a rounding error."""
+    def _repr_html_(self) -> str: ...
 
 class Simulation:
     def __init__(
@@ -208,10 +231,10 @@ class Simulation:
     @property
     def container_radius(self) -> float: ...
     def path(self) -> list[float]: ...
+    def __len__(self) -> int: ...
     def counts(self) -> tuple[int, int, int, int, int]: ...
     def now(self) -> tuple[int, float]: ...
     def state_hash(self) -> str: ...
-    def __len__(self) -> int: ...
 
 class Plan:
     def __init__(
@@ -224,17 +247,15 @@ class Plan:
         series: bool = False,
         rows: Optional[list[dict[str, Any]]] = None,
     ) -> None: ...
+    def __len__(self) -> int: ...
     @property
     def axes(self) -> dict[str, list[str]]: ...
     def points(self) -> list[dict[str, str]]: ...
     def write(self, folder: str) -> None: ...
-    def __len__(self) -> int: ...
 
 class Recording:
     @staticmethod
     def open(file: str) -> Recording: ...
-    @staticmethod
-    def of_frames(frames: Frames) -> Recording: ...
     @staticmethod
     def tracks(
         frame: npt.NDArray[Any],
@@ -248,24 +269,28 @@ class Recording:
     ) -> Recording: ...
     @staticmethod
     def read_tracks(file: str) -> dict[str, npt.NDArray[Any]]: ...
-    @property
-    def remarks(self) -> str: ...
+    @staticmethod
+    def of_frames(frames: Frames) -> Recording: ...
+    def __len__(self) -> int: ...
     def frames(self, begin: int, end: int, step: int) -> Frames: ...
     @property
     def same_discs(self) -> bool: ...
     @property
     def complete(self) -> bool: ...
+    @property
+    def remarks(self) -> str: ...
     def about(self) -> dict[str, str]: ...
     def analyse(
         self, measured: list[str], all: bool, warmup: float
-    ) -> tuple[
-        list[Report], tuple[float, float, float, int], tuple[float, float, float, int], int, str
-    ]: ...
-    def __len__(self) -> int: ...
+    ) -> tuple[list[Report], _Estimate, _Estimate, int, str]: ...
 
-samples_per_period: int
 event_dtype: np.dtype[np.void]
+samples_per_period: int
+min_averaged_periods: float
 
+def write_file(path: str, content: bytes) -> None: ...
+def snapshot_from_bytes(data: bytes) -> Snapshot: ...
+def frames_from_bytes(data: bytes) -> Frames: ...
 def run(
     parameters: dict[str, Any],
     measured: list[str],
@@ -275,14 +300,7 @@ def run(
     period_ended: Optional[Callable[[Frames], None]],
     files: dict[str, Any],
     series: bool,
-) -> tuple[
-    str,
-    list[Report],
-    Optional[BaseException],
-    str,
-    str,
-    Optional[tuple[list[str], list[str], list[str], _Floats]],
-]: ...
+) -> tuple[str, list[Report], Optional[BaseException], str, str, Optional[_SeriesColumns]]: ...
 def resolve(parameters: dict[str, Any]) -> str: ...
 def measurement_list(names: str) -> list[str]: ...
 def measurement_kinds() -> list[tuple[str, str, str]]: ...
@@ -292,8 +310,24 @@ def shortened(text: str) -> str: ...
 def parameters() -> list[tuple[str, str, str, str, str, float, float, str]]: ...
 def version() -> str: ...
 def build_description() -> str: ...
-def snapshot_from_bytes(data: bytes) -> Snapshot: ...
-def frames_from_bytes(data: bytes) -> Frames: ...
+def over_replicates(
+    means: npt.ArrayLike,
+    errors: npt.ArrayLike,
+    effective: npt.ArrayLike,
+    weights: Sequence[float],
+    directions: bool,
+) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats]: ...
+def is_direction(name: str) -> bool: ...
+def replicate_weights(periods: Sequence[float], by_time: bool) -> list[float]: ...
+def zero_crossing(
+    discs: Sequence[float], means: Sequence[float], errors: Sequence[float]
+) -> dict[str, Any]: ...
+def read_own_points(file: str, period: Optional[float]) -> _Curve: ...
+def compare_curves(
+    parameters: list[float], curves: list[_Curve], measured: _Curve
+) -> tuple[_Curve, list[float], Optional[tuple[float, float, float, float, int, bool]]]: ...
+def estimate_of_series(values: Sequence[float]) -> tuple[float, float, float, float]: ...
+def checksum(text: str) -> str: ...
 def grow(
     folder: str,
     more: dict[str, Any],
@@ -302,7 +336,6 @@ def grow(
     rows: Optional[list[dict[str, Any]]],
 ) -> None: ...
 def run_identity(parameters: dict[str, Any]) -> str: ...
-def write_file(path: str, content: bytes) -> None: ...
 def result_files(
     folder: str, rows: list[dict[str, Any]], seeds: int
 ) -> list[list[tuple[str, str]]]: ...
@@ -313,6 +346,18 @@ def sweep(
     rows: Optional[list[dict[str, Any]]] = None,
 ) -> tuple[int, int, int, str]: ...
 def collect(folder: str) -> tuple[str, int, int, int, int, int, int, int, str]: ...
+def crossing(
+    folder: Optional[str],
+    parameters: dict[str, Any],
+    min_discs: int,
+    max_discs: int,
+    tolerance: float,
+    rate: str,
+    threads: int,
+    command: str,
+    progress: Optional[Callable[[str, float], object]],
+    min_periods: int = 50,
+) -> tuple[str, str]: ...
 def write_map_plan(
     folder: str,
     x: dict[str, Any],
@@ -340,42 +385,3 @@ def grow_map(
 def make_map(
     folder: str, threads: int, progress: Optional[Callable[[int, int, int], object]]
 ) -> tuple[str, str, str]: ...
-def crossing(
-    folder: Optional[str],
-    parameters: dict[str, Any],
-    min_discs: int,
-    max_discs: int,
-    tolerance: float,
-    rate: str,
-    threads: int,
-    command: str,
-    progress: Optional[Callable[[str, float], object]],
-    min_periods: int = 50,
-) -> tuple[str, str]: ...
-def over_replicates(
-    means: npt.ArrayLike,
-    errors: npt.ArrayLike,
-    effective: npt.ArrayLike,
-    weights: Sequence[float],
-    directions: bool,
-) -> tuple[_Floats, _Floats, _Floats, _Floats, _Floats]: ...
-def is_direction(name: str) -> bool: ...
-def replicate_weights(periods: Sequence[float], by_time: bool) -> list[float]: ...
-
-min_averaged_periods: float
-
-def read_own_points(file: str, period: Optional[float]) -> list[tuple[float, float, float]]: ...
-def compare_curves(
-    parameters: list[float],
-    curves: list[list[tuple[float, float, float]]],
-    measured: list[tuple[float, float, float]],
-) -> tuple[
-    list[tuple[float, float, float]],
-    list[float],
-    Optional[tuple[float, float, float, float, int, bool]],
-]: ...
-def zero_crossing(
-    discs: Sequence[float], means: Sequence[float], errors: Sequence[float]
-) -> dict[str, Any]: ...
-def estimate_of_series(values: Sequence[float]) -> tuple[float, float, float, float]: ...
-def checksum(text: str) -> str: ...

@@ -66,7 +66,7 @@ def rows_of(measured: Mapping[str, Any]) -> Rows:
 
 
 def snapshot_to_pandas(self: _engine.Snapshot) -> Any:
-    """One row per disc."""
+    """A pandas DataFrame, one row per disc."""
     pandas = optional("pandas", "to_pandas()")
     columns: dict[str, Any] = {
         "disc": np.arange(len(self)),
@@ -80,7 +80,7 @@ def snapshot_to_pandas(self: _engine.Snapshot) -> Any:
 
 
 def snapshot_to_xarray(self: _engine.Snapshot) -> Any:
-    """A Dataset with the dimensions disc and xy."""
+    """An xarray Dataset with the dimensions disc and xy."""
     xarray = optional("xarray", "to_xarray()")
     columns: dict[str, Any] = {
         "position": (("disc", "xy"), np.array(self.position)),
@@ -99,7 +99,7 @@ def snapshot_to_xarray(self: _engine.Snapshot) -> Any:
 
 
 def frames_to_pandas(self: _engine.Frames) -> Any:
-    """One row per disc of each frame."""
+    """A pandas DataFrame, one row per disc of each frame."""
     pandas = optional("pandas", "to_pandas()")
     frames, discs = len(self), self.discs
     columns: dict[str, Any] = {
@@ -115,7 +115,7 @@ def frames_to_pandas(self: _engine.Frames) -> Any:
 
 
 def frames_to_xarray(self: _engine.Frames) -> Any:
-    """A Dataset with the dimensions frame, disc and xy."""
+    """An xarray Dataset with the dimensions frame, disc and xy."""
     xarray = optional("xarray", "to_xarray()")
     columns: dict[str, Any] = {
         name: (("frame", "disc", "xy"), np.array(getattr(self, name)))
