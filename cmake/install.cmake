@@ -36,7 +36,9 @@ if(NOT SWIRL_PROGRAM)
   return()
 endif()
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
+# `swirl` finds the commands there (src/swirl/run/programs.hpp).
 install(TARGETS swirl)
+install(TARGETS swirl-commands RUNTIME DESTINATION libexec/swirl)
 install(DIRECTORY paper DESTINATION ${CMAKE_INSTALL_DATADIR}/swirl FILES_MATCHING
   PATTERN *.py PATTERN *.j2 PATTERN tests EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -46,9 +48,10 @@ install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
 if(SKBUILD)
   # Component of the Python wheel: the module, the program with its figure scripts, and the library of both.
   set_target_properties(swirl_python PROPERTIES INSTALL_RPATH $ORIGIN)
-  set_target_properties(swirl PROPERTIES INSTALL_RPATH $ORIGIN/../..)
+  set_target_properties(swirl-commands PROPERTIES INSTALL_RPATH $ORIGIN/../../..)
   install(TARGETS swirl_python swirl_shared LIBRARY DESTINATION swirl COMPONENT wheel)
   install(TARGETS swirl RUNTIME DESTINATION swirl/_program/bin COMPONENT wheel)
+  install(TARGETS swirl-commands RUNTIME DESTINATION swirl/_program/libexec/swirl COMPONENT wheel)
   install(DIRECTORY paper DESTINATION swirl/_program/share/swirl COMPONENT wheel
           FILES_MATCHING PATTERN *.py PATTERN *.j2 PATTERN tests EXCLUDE)
 elseif(TARGET swirl_python)

@@ -1,12 +1,12 @@
 # Functions for ./swirl, ./check and other scripts: install missing Debian packages, and build when the
 # sources are newer than the last build. A script that sources this file sets $home, the root of the
 # tree, $me, its name, and $long, the duration of a first build on two cores. It may set $settings,
-# arguments for cmake, afterwards. Messages go to stderr: stdout belongs to the program (`--json -`).
+# arguments for cmake, and $building, what is built, afterwards. Messages go to stderr: stdout belongs to the program (`--json -`).
 # The functions use POSIX sh, and `find -cnewer`, which GNU and BSD have.
 # shellcheck disable=SC2086
 
 dpkg=/var/lib/dpkg
-settings= # ignores a variable of that name in the environment
+settings= building="the program" # ignores variables of these names in the environment
 
 say() { echo "$me: $*" >&2; }
 # What is wrong, and a hint if there is one.
@@ -163,20 +163,19 @@ report_progress() {
     done
 }
 
-# is_built PRESET [FOLDERS_WATCHED [TARGETS]]: succeeds if build/PRESET is newer than all of its sources.
+# is_built PRESET SECTIONS_NEEDED [FOLDERS_WATCHED [TARGETS]]: succeeds if these targets, or all, in build/PRESET are
+# newer than their sources and than the packages in these sections.
 is_built() {
-    stamp="$home/build/$1/.built${3:+ $3}${settings:+ $settings}"
-    sources="src track cmake CMakeLists.txt CMakePresets.json packages ${2-}"
-    linked=build
-    case "${3-} $settings" in swirl_python* | *DRAWING=OFF*) ;; *) linked="$linked drawing" ;; esac
-    case "${3-} $settings" in swirl_python* | *CAMERA=OFF*) ;; *) linked="$linked camera" ;; esac
+    stamp="$home/build/$1/.built${4:+ $4}${settings:+ $settings}"
+    sources="src track cmake CMakeLists.txt CMakePresets.json packages ${3-}"
+    linked=$2
     [ -e "$stamp" ] && [ -z "$(changed_since $sources)" ]
 }
 
 # build PRESET SECTIONS_NEEDED [FOLDERS_WATCHED [TARGETS]]
 # Builds these targets, or all, in build/PRESET if they are not up to date.
 build() {
-    ! is_built "$1" "${3-}" "${4-}" || return 0
+    ! is_built "$@" || return 0
     case $home in
         *[\"\;\\]*) give_up "cannot build in '$home': CMake does not support \", ; and \\ in the names of folders." ;;
     esac
@@ -186,7 +185,7 @@ build() {
     lock "$folder" build
     # Another process may have built it while this one waited.
     built=yes
-    is_built "$1" "${3-}" "${4-}" || (build_now "$@") || built=no
+    is_built "$@" || (build_now "$@") || built=no
     unlock
     [ $built = yes ] || exit 1
 }
@@ -214,7 +213,7 @@ build_now() {
     find "$folder" -type f -mmin -0 -exec touch -t 200001010000 {} + 2>/dev/null || true
     (cd "$home" && find $sources -type f -mmin -0 -exec touch {} + 2>/dev/null) || true
     [ "$1" != release ] || settings="-DSWIRL_ONLY_WIDEST=ON $settings" # only for this machine
-    [ -e "$stamp" ] || say "building the program, only once; this takes $long on two cores"
+    [ -e "$stamp" ] || say "building $building, only once; this takes $long on two cores"
     log=$folder/build.log
     { touch "$stamp.building" && echo "cmake --preset $1" >"$log"; } 2>/dev/null || no_space
     report_progress "$log" 9<&- &
@@ -225,12 +224,4 @@ build_now() {
     [ $built = yes ] || ! is_full || no_space
     [ $built = yes ] || { tail -n 40 "$log" >&2 && give_up "the build failed (see above; full log: $log)."; }
     mv "$stamp.building" "$stamp" # dated before the build: later changes are newer
-}
-
-# print_section HEADING: prints the text below `## HEADING` of cmake/help.txt.
-print_section() {
-    heading="## $1" awk '
-        /^## swirl/ { here = $0 == ENVIRON["heading"]; next }
-        here { print; found = 1 }
-        END { exit !found }' "$home/cmake/help.txt" 2>/dev/null
 }

@@ -9,14 +9,7 @@ import subprocess
 import termios
 import unittest
 
-from program import SOURCE, SWIRL, ProgramTest, read_text, result_of, swirl
-
-
-def subcommands():
-    """Names in the help of the program, under "Subcommands:"."""
-    text = swirl("--help").stdout
-    listed = text[text.index("Subcommands:") : text.index("Examples:")]
-    return re.findall(r"^  (\S+)", listed, re.MULTILINE)
+from program import SOURCE, SWIRL, ProgramTest, commands, read_text, result_of, swirl
 
 
 def source_folders():
@@ -71,7 +64,7 @@ def examples(text):
 class Help(ProgramTest):
     def test_every_help_has_examples_of_itself(self):
         self.assertTrue(examples(swirl("--help").stdout))
-        for name in subcommands():
+        for name in commands():
             with self.subTest(name):
                 done = self.assert_works(name, "--help")
                 self.assertEqual(done.stderr, "")
@@ -79,10 +72,10 @@ class Help(ProgramTest):
                 # Examples of the next step may follow.
                 self.assertTrue(examples(done.stdout)[0].startswith(f"swirl {name}"))
                 for example in examples(done.stdout):
-                    self.assertIn(example.split()[1], subcommands(), example)
+                    self.assertIn(example.split()[1], commands(), example)
 
     def test_examples_use_only_options_that_exist(self):
-        for name in subcommands():
+        for name in commands():
             text = swirl(name, "--help").stdout
             known = set(re.findall(r"(--[a-z0-9-]+)", text[: text.index("Examples:")]))
             for example in examples(text):
@@ -93,7 +86,7 @@ class Help(ProgramTest):
 
     def test_descriptions_are_short_noun_phrases(self):
         seen = 0
-        for name in subcommands():
+        for name in commands():
             for option, description in described_options(swirl(name, "--help").stdout):
                 seen += 1
                 self.assertTrue(1 <= len(description) <= 60, f"{name} {option}: {description}")
@@ -101,7 +94,7 @@ class Help(ProgramTest):
         self.assertGreater(seen, 250)
 
     def test_the_short_help_has_the_main_options_and_names_the_full_help(self):
-        for name in subcommands():
+        for name in commands():
             with self.subTest(name):
                 short, full = swirl(name, "-h"), swirl(name, "--help")
                 self.assertEqual((short.returncode, short.stderr), (0, ""))
@@ -178,7 +171,7 @@ class Help(ProgramTest):
     def test_messages_name_only_options_that_exist(self):
         known = {
             name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
-            for name in subcommands()
+            for name in commands()
         }
         everywhere = set().union(*known.values()) | {"--version", "--help"}
         seen = 0

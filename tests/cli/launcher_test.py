@@ -10,18 +10,20 @@ import subprocess
 import time
 import unittest
 
-from program import HANG, SOURCE, InFolder, other_user, read_text, wait_until, write_text
+from program import HANG, SOURCE, InFolder, other_user, read_text, swirl, wait_until, write_text
 
-CMAKE = """cmake_minimum_required(VERSION 3.25)
+WITHOUT_COMMANDS = """cmake_minimum_required(VERSION 3.25)
 project(small LANGUAGES CXX)
 file(GLOB sources CONFIGURE_DEPENDS src/*.cpp)
 add_executable(swirl ${sources})
-option(SWIRL_STUDY "" ON)
-option(SWIRL_DRAWING "" ON)
-option(SWIRL_EXPERIMENT "" ON)
-option(SWIRL_CAMERA "" ON)
-target_compile_definitions(swirl PRIVATE PARTS="${SWIRL_STUDY},${SWIRL_DRAWING},${SWIRL_EXPERIMENT},${SWIRL_CAMERA}")
 """
+CMAKE = (
+    WITHOUT_COMMANDS
+    + """foreach(name run movie image synthetic-video crossing sweep map track paper)
+  add_executable(swirl-${name} ${sources})
+endforeach()
+"""
+)
 # Without CMake's tests of the compiler, which the tests below do not need.
 PRESETS = """{"version": 6, "configurePresets": [{"name": "release", "generator": "Ninja",
  "binaryDir": "${sourceDir}/build/release", "cacheVariables": {"CMAKE_CXX_COMPILER_FORCED": "ON",
@@ -31,7 +33,6 @@ PROGRAM = """#include <cstdio>
 #include <cstring>
 #include <unistd.h>
 int main(int argc, char** argv) {
-    if (argc > 2 && std::strcmp(argv[2], "parts") == 0) std::puts(PARTS);
     if (std::getenv("SWIRL_PARSE_ONLY")) return argc > 2 && std::strcmp(argv[2], "--wrong") == 0 ? 2 : 0;
     std::printf("%s %d\\n", "WORD", int(getpid()));
     std::fflush(stdout);
@@ -44,11 +45,11 @@ int main(int argc, char** argv) {
 class Launcher(InFolder):
     def setUp(self):
         super().setUp()
-        os.makedirs(self.path("src"))
         os.makedirs(self.path("cmake"))
         os.makedirs(self.path("bindings/python"))
         self.copy("swirl")
         self.copy("cmake/launcher.sh")
+        self.copy("src/swirl/cli/command_list.hpp")
         self.write("packages", "[build]\ng++\ncmake\nninja-build\n[figures]\n")
         self.write("CMakeLists.txt", CMAKE)
         self.write("CMakePresets.json", PRESETS)
@@ -265,51 +266,54 @@ class Launcher(InFolder):
         process.communicate(timeout=HANG)
         self.assertEqual(process.returncode, -signal.SIGTERM)
 
-    def parts(self, subcommand, *arguments):
-        """The built parts (study, drawing, experiment, camera), or None if nothing ran, and whether
-        the call built."""
-        # The small program ends with exit code 0 for the name of a subcommand.
-        done = self.call(subcommand, *(arguments or ("parts",)))
-        built = [
-            letter for letter, part in zip("sdec", done.stdout.split(",")) if part.startswith("ON")
-        ]
-        return "".join(built) if done.stdout else None, "building" in done.stderr
+    def built(self):
+        """The commands that have a program."""
+        files = os.listdir(self.path("build/release"))
+        return sorted(name[6:] for name in files if re.fullmatch("swirl-[a-z-]+", name))
 
-    def test_each_part_is_built_on_first_use_and_stays(self):
+    def test_a_command_is_built_when_it_is_called(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
-        for subcommand, parts, builds in (
-            ("run", "", True),
-            ("run", "", False),
-            ("paper", "", True),  # the module
-            ("movie", "d", True),
-            ("image", "d", False),
-            ("run", "d", False),
-            ("synthetic-video", "d", False),
-            ("crossing", "sd", True),
-            ("sweep", "sd", False),
-            ("collect", "sd", False),
-            ("map", "sd", False),
-            ("track", "sdec", True),
-            ("track", "sdec", False),
-            ("movie", "sdec", False),
-            ("paper", "sdec", True),
-            ("paper", "sdec", False),
-            ("experiment", "sdec", False),
-            ("run", "sdec", False),
-        ):
-            with self.subTest(subcommand, parts=parts):
-                self.assertEqual(self.parts(subcommand), (parts, builds))
+        called = set()
+        for name in ("run", "run", "movie", "run", "paper", "paper", "synthetic-video", "movie"):
+            with self.subTest(name):
+                done = self.call(name)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual("building" in done.stderr, name not in called)
+                called.add(name)
+                self.assertEqual(self.built(), sorted(called))
+        self.call("paper", "--movies")
+        # A change of the sources builds the command that is called.
         self.write_program("second")
-        self.assertEqual(self.parts("run")[0], "sdec")
-        self.assertEqual(self.word(), "second")
+        self.assertEqual(self.call("run").stdout.split()[0], "second")
+        for name, word in (("run", "second"), ("movie", "first")):
+            done = subprocess.run(
+                [self.path("build/release/swirl-" + name)], capture_output=True, text=True
+            )
+            self.assertEqual(done.stdout.split()[0], word)
 
-    def test_help_and_a_usage_error_add_no_part(self):
-        self.assertEqual(self.parts("run"), ("", True))
-        for subcommand in ("paper", "sweep", "map", "image", "movie", "track", "experiment"):
-            with self.subTest(subcommand):
-                self.assertEqual(self.parts(subcommand, "--wrong"), (None, False))
-                self.assertEqual(self.parts(subcommand, "--help")[1], False)
-                self.assertEqual(self.parts("run"), ("", False))
+    def test_movies_of_the_paper_need_a_second_command(self):
+        self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
+        self.assertEqual(self.call("paper", "--movies").returncode, 0)
+        self.assertEqual(self.built(), ["movie", "paper"])
+
+    def test_help_builds_no_command_but_the_command_help_does(self):
+        self.call("run")
+        done = self.call("movie", "--help")
+        self.assertIn("`./swirl help movie` builds it", done.stderr)
+        self.assertEqual((done.returncode, self.built()), (0, ["run"]))
+        self.assertEqual(self.call("help", "movie").returncode, 0)
+        self.assertEqual(self.built(), ["movie", "run"])
+
+    def test_a_command_without_its_library_is_built_when_the_library_is_there(self):
+        without = CMAKE.replace(" track", "") + "add_custom_target(swirl-track)\n"
+        self.write("CMakeLists.txt", without)
+        for _ in range(2):
+            self.assertIn("building", self.call("track").stderr)
+            self.assertEqual(self.built(), [])
+        self.write("CMakeLists.txt", CMAKE)
+        self.call("track")
+        self.assertEqual(self.built(), ["track"])
+        self.assertEqual(self.call("track").stderr, "")
 
     def test_works_through_a_link(self):
         os.symlink(self.path("swirl"), self.path("link"))
@@ -387,57 +391,57 @@ exit 100
         self.assertNotIn("update", read_text(self.path("asked")))
 
     def test_a_usage_error_installs_nothing(self):
-        self.write("packages", "[build]\ng++\n[movies]\nno-movies\n[camera]\nno-camera\n")
+        self.write("packages", "[build]\ng++\n[movies]\nno-movies\n")
         self.stand_in("id", "echo 0\n")
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')
         for command in ("movie", "track"):
             done = self.call_with_stand_ins(command, "--wrong")
             self.assertEqual((done.returncode, done.stdout), (2, ""), done.stderr)
             self.assertFalse(os.path.exists(self.path("asked")))
-        done = self.call_with_stand_ins("track", "parts")
-        self.assertEqual(done.stdout.split()[:2], ["OFF,ON,ON,ON", "first"], done.stderr)
+        done = self.call_with_stand_ins("track", "right")
+        self.assertEqual(done.stdout.split()[:1], ["first"], done.stderr)
         self.assertTrue(os.path.exists(self.path("asked")))
+
+    def test_packages_of_a_library_are_installed_to_build_the_command(self):
+        self.write("packages", "[build]\ng++\n[drawing]\ng++\n[camera]\nno-camera\n")
+        self.stand_in("id", "echo 1000\n")
+        self.assertEqual(self.call_with_stand_ins("movie").returncode, 0)
+        done = self.call_with_stand_ins("track")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("sudo apt-get install --no-install-recommends no-camera\n", done.stderr)
 
     def test_help_installs_and_builds_nothing(self):
         for name in ("cmake", "ninja", "g++", "apt-get", "dpkg-query"):
             self.stand_in(name, f'echo {name} >>{self.path("started")}\nexit 1\n')
-        self.assertEqual(self.call_with_stand_ins("run", "--help").returncode, 1)
-        self.write(
-            "cmake/help.txt",
-            """## swirl
-Usage: swirl COMMAND
-## swirl run
-Usage: swirl run [OPTIONS]
-
-## not a heading
-## swirl python
-Usage: swirl python [ARGUMENTS OF PYTHON]
-""",
-        )
-        run = "Usage: swirl run [OPTIONS]\n\n## not a heading\n"
-        for call, code, text in (
-            (["run", "--help"], 0, run),
-            (["run", "--discs", "4", "-h"], 0, run),
-            (["nothing", "-h"], 2, "Usage: swirl COMMAND\n"),
-        ):
+        listed = self.call_with_stand_ins("--help")
+        self.assertEqual((listed.returncode, listed.stderr), (0, ""))
+        for call in (["-h"], ["help"], ["run", "--help"], ["run", "--discs", "4", "-h"]):
             with self.subTest(call):
                 done = self.call_with_stand_ins(*call)
-                self.assertEqual((done.returncode, done.stdout), (code, text), done.stderr)
-        for word in ("--help", "-h"):
-            done = self.call_with_stand_ins(word)
-            self.assertEqual((done.returncode, done.stderr), (0, ""))
-            self.assertTrue(done.stdout.startswith("Usage: swirl COMMAND\n\nFurther commands"))
+                self.assertEqual((done.returncode, done.stdout), (0, listed.stdout))
+        self.assertIn("`./swirl help run` builds it and prints its options", done.stderr)
+        done = self.call_with_stand_ins("nothing", "-h")
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("there is no command 'nothing'", done.stderr)
         self.copy("bindings/python/python.sh")
         self.assertIn("Usage: swirl python", self.call_with_stand_ins("python", "--help").stdout)
         self.assertFalse(os.path.exists(self.path("started")))
         self.assertFalse(os.path.exists(self.path("build")))
         # With a program, help comes from the program, even if the sources have changed since.
-        self.assertEqual(self.word(), "first")
+        self.call("run")
         self.write_program("second")
         done = self.call_with_stand_ins("run", "--help")
         self.assertEqual(done.stdout.split()[:1], ["first"])
         self.assertIn("note: this is the help of the last build", done.stderr)
         self.assertFalse(os.path.exists(self.path("started")))
+
+    def test_the_list_of_commands_is_that_of_the_program(self):
+        """`./swirl --help` adds the scripts of this folder."""
+        ours = swirl("--help").stdout.splitlines()
+        with_scripts = self.call("--help").stdout.splitlines()
+        scripts = [line for line in with_scripts if line not in ours]
+        self.assertEqual([line.split()[0] for line in scripts], ["lab", "site", "python"])
+        self.assertEqual([line for line in with_scripts if line not in scripts], ours)
 
     def test_only_changes_of_the_packages_of_the_build_make_it_stale(self):
         launcher = read_text(self.path("cmake/launcher.sh"))
@@ -448,17 +452,18 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
                 "g++.list",
                 "cmake:amd64.list",
                 "other.list",
-                "lens.list",
+                "coreutils.list",
                 "libfmt-dev:amd64.list",
             )
         ]
         self.write(
             "packages",
-            "[build]\ng++\ncmake\nninja-build\nlibfmt-dev\n[figures]\nother\n[camera]\nlens\n",
+            "[build]\ng++\ncmake\nninja-build\nlibfmt-dev\n[figures]\nother\n[camera]\ncoreutils\n",
         )
         for name in [self.path("dpkg/status"), *packages]:
             self.write(name, "")
-        self.assertEqual(self.word(), "first")
+        self.call("run")
+        self.call("track")
         for name, builds in (
             (self.path("dpkg/status"), False),
             (packages[2], False),
@@ -472,12 +477,13 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
                 self.assertEqual(
                     "sources have changed" in self.call("run", "--help").stderr, builds
                 )
-                self.assertEqual(self.call().returncode, 0)
+                self.assertEqual(self.call("run").returncode, 0)
                 self.assertNotIn("note", self.call("run", "--help").stderr)
-        # The camera's packages count when the program has that part.
-        self.call("track", "parts")
+        # The camera's packages count for the commands that use it.
+        self.call("track")
         self.write(packages[3], "")
-        self.assertIn("sources have changed", self.call("run", "--help").stderr)
+        self.assertIn("sources have changed", self.call("track", "--help").stderr)
+        self.assertNotIn("note", self.call("run", "--help").stderr)
 
     def test_without_dpkg_it_lists_what_is_missing(self):
         everything = self.path("bin")
@@ -574,7 +580,8 @@ Usage: swirl python [ARGUMENTS OF PYTHON]
             CMAKE
             + """add_custom_command(OUTPUT waited.txt VERBATIM
   COMMAND sh ${PROJECT_SOURCE_DIR}/wait.sh COMMAND ${CMAKE_COMMAND} -E touch waited.txt)
-add_custom_target(waits ALL DEPENDS waited.txt)
+add_custom_target(waits DEPENDS waited.txt)
+add_dependencies(swirl waits)
 """,
         )
         started = self.start(**more)
@@ -710,6 +717,7 @@ add_custom_target(waits ALL DEPENDS waited.txt)
         """Runs a script of sh in which build is a disk of 16 kB and ./swirl the launcher; its
         output and errors in one. The script changes the disk with `change OPTIONS`."""
         os.makedirs(self.path("build"))
+        self.write("CMakeLists.txt", WITHOUT_COMMANDS)
         # The old options of the disk name an owner without a number in the new namespace, so they
         # are ignored.
         before = """change() { mount --options-mode ignore -t tmpfs -o "remount,$1" swirl build || fail; }
@@ -781,7 +789,6 @@ cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
         for call, wanted in (
             (["run"], None),
             (["image"], None),
-            (["movie", "--help"], None),
             (["image", "--", "--movies"], None),
             (["movie"], "no-camera"),
             (["movie"], None),
@@ -851,7 +858,8 @@ touch slept
   COMMAND ${CMAKE_COMMAND} -E touch slow.txt)
 add_custom_command(OUTPUT slower.txt DEPENDS slow.txt VERBATIM
   COMMAND sh ${PROJECT_SOURCE_DIR}/slower.sh COMMAND ${CMAKE_COMMAND} -E touch slower.txt)
-add_custom_target(slow ALL DEPENDS slower.txt)
+add_custom_target(slow DEPENDS slower.txt)
+add_dependencies(swirl slow)
 """,
         )
         self.assertRegex(self.call_with_stand_ins().stderr, r"building: [1-9] of \d, \d\d %\n")

@@ -76,6 +76,12 @@ def swirl(*arguments, timeout=HANG, **more):
     )
 
 
+def commands():
+    """The names in the list of `swirl --help`."""
+    listed = swirl("--help").stdout.partition("Examples:")[0]
+    return re.findall(r"^  ([a-z][a-z-]*)  ", listed, re.M)
+
+
 def wait_until(happens, process=None):
     """Waits until happens() is true. Fails if the process ends before."""
     begin = time.monotonic()

@@ -7,7 +7,7 @@ import re
 import shlex
 import unittest
 
-from program import ALL, SOURCE, main, read_text, swirl
+from program import ALL, SOURCE, commands, main, read_text, swirl
 
 README = read_text(os.path.join(SOURCE, "README.md"))
 
@@ -69,20 +69,17 @@ class Readme(unittest.TestCase):
     def test_options_in_the_documents_exist(self):
         """Every option of a command, on a line of its own or in backquotes, is in the help of the
         command."""
-        commands = re.findall(
-            r"^  (\w[\w-]*)  ", swirl("--help").stdout.partition("Subcommands:")[2], re.M
-        )
-        helps, options = {}, 0
+        helps, options, names = {}, 0, commands()
         for name in ["README.md", *pages()]:
             text = read_text(os.path.join(SOURCE, name)).replace("\\\n", " ")
             for start, call in re.findall(
                 r"(^|^\./|`|`\./|&& \./)swirl ([a-z][^`\n]*)", text, re.M
             ):
-                if start == "" and call.split()[0] not in commands:  # a sentence
+                if start == "" and call.split()[0] not in names:  # a sentence
                     continue
                 words = shlex.split(call.replace("…", ""), comments=True)
                 words = words[: words.index("&&")] if "&&" in words else words
-                if not words or words[0] in ("lab", "site", "python"):  # scripts
+                if not words or words[0] in ("help", "lab", "site", "python"):  # no program
                     continue
                 if words[0] not in helps:
                     helps[words[0]] = swirl(words[0], "--help").stdout

@@ -21,9 +21,10 @@ class Scripts(InFolder):
         return os.path.exists(self.path("ran"))
 
     def copied(self, name):
-        """A copy of the program with this name draws Figure 5b."""
+        """A copy of the program with this name, and of its command, draws Figure 5b."""
         os.makedirs(os.path.dirname(self.path(name)), exist_ok=True)
         shutil.copy(SWIRL, self.path(name))
+        shutil.copy(SWIRL + "-paper", self.path(name + "-paper"))
         return subprocess.run(
             [self.path(name), *FIGURE, "--out", self.path("out")],
             timeout=HANG,

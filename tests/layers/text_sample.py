@@ -22,10 +22,6 @@ def texts():
     for page in prose.PAGES:
         name = str(page.relative_to(SOURCE))
         text = page.read_text(encoding="utf-8")
-        if name.endswith(".txt"):
-            for entry in re.findall(r"^  --\S.*(?:\n {20}.*)*", text, re.M):
-                yield "help", name, entry
-            continue
         for paragraph in re.split(r"\n\s*\n", re.sub(r"```.*?```", "", text, flags=re.S)):
             if re.match(r"[A-Z*-]", paragraph):
                 yield "page", name, paragraph
@@ -39,6 +35,10 @@ def texts():
             text = file.read_text(encoding="utf-8")
             for sentence in prose.comment_sentences(text, "#" if file.suffix == ".py" else "//"):
                 yield "comment", name, sentence
+            for option, description in re.findall(
+                r'\{?"(--[a-z-]+)", [\w>&.-]+,\s+(?:"[A-Z|.]+",\s+)?"([A-Z][^"]*)"', text
+            ):
+                yield "help", name, f"{option}  {description}"
             for message in re.findall(
                 r'(?:Error|Failure)\(\s*(?:fmt::format\(\s*)?((?:"(?:\\.|[^"\\])*"\s*)+)', text
             ):

@@ -170,6 +170,7 @@ class DebianPackages(unittest.TestCase):
         files = output_of("dpkg-deb", "--contents", package)
         for path in (
             "usr/bin/swirl",
+            "usr/libexec/swirl/swirl-commands",
             "usr/share/swirl/paper/figures/figure_5b.py",
             "usr/share/doc/swirl/copyright",
         ):

@@ -32,7 +32,8 @@ FLAGS = [
     f"-I{SOURCE}",
     f"-I{GENERATED}",
     '-DSWIRL_BUILD=""',
-    "-DSWIRL_DRAWING=1",
+    "-DSWIRL_HAS_DRAWING=1",
+    "-DSWIRL_HAS_CAMERA=1",
 ]
 SYSTEM_FOLDERS = ("/usr/include/hdf5/serial", "/usr/include/opencv4")
 ONE_BY_ONE = ("cli", "engine")

@@ -1,9 +1,4 @@
 // swirl experiment: the paper's figures from a set of videos, compared with simulations.
-#include "swirl/cli/commands.hpp"
-#include "swirl/cli/missing_parts.hpp"
-#include "swirl/cli/run_options.hpp"
-#include "track/experiment/experiment.hpp"
-#ifdef SWIRL_EXPERIMENT
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,22 +6,23 @@
 #include <set>
 
 #include "swirl/cli/command_line.hpp"
+#include "swirl/cli/commands.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
+#include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/tracks_input.hpp"
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/optional_file.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/version.hpp"
 #include "track/cli/tracked_video.hpp"
-#endif
-#ifdef SWIRL_CAMERA
+#include "track/experiment/experiment.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
-#endif
 
 namespace swirl {
 namespace {
@@ -43,14 +39,6 @@ struct ExperimentCall {
     bool spin = false, no_simulation = false, quiet = false;
 };
 
-#ifndef SWIRL_EXPERIMENT
-
-void make_experiment_report(const ExperimentCall&) {
-    throw_missing("experiment", "SWIRL_EXPERIMENT");
-}
-
-#else
-
 std::string name_of_video(const std::string& video) {
     fs::path path = video;
     // For numbered images ('frames/%05d.png'), the name of their folder.
@@ -58,8 +46,6 @@ std::string name_of_video(const std::string& video) {
         return path.parent_path().filename();
     return path.stem().string();
 }
-
-#ifdef SWIRL_CAMERA
 
 using namespace tracking;
 
@@ -104,14 +90,6 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& video,
     write_output(about, key);
     return table;
 }
-
-#else
-
-fs::path tracks_of(const ExperimentCall&, const std::string&, ContainerVideo&) {
-    throw_no_camera_support();
-}
-
-#endif
 
 void measure(const ExperimentCall& call, const fs::path& table, ContainerVideo& container) {
     const fs::path calibration = camera_file(table);
@@ -242,8 +220,6 @@ void make_experiment_report(ExperimentCall& call) {
                         videos.size() - std::size_t(good), videos.size()));
 }
 
-#endif  // SWIRL_EXPERIMENT
-
 void add_experiment_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExperimentCall>();
     const char* group = "Videos";
@@ -285,9 +261,7 @@ void add_experiment_command(Subcommand& subcommand) {
     subcommand.callback([call] { make_experiment_report(*call); });
 }
 
-const Command experiment_command(42, "experiment",
-                                 "Compare videos with simulations in the paper's figures",
-                                 add_experiment_command);
+const Command experiment_command("experiment", add_experiment_command);
 
 }  // namespace
 }  // namespace swirl

@@ -9,7 +9,6 @@
 #include <tuple>
 
 #include "swirl/cli/commands.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
@@ -17,15 +16,13 @@
 #include "swirl/io/optional_file.hpp"
 #include "swirl/io/table.hpp"
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/render/frame_source.hpp"
+#include "swirl/render/movie_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/path_parameter.hpp"
 #include "swirl/run/version.hpp"
-#ifdef SWIRL_DRAWING
-#include "swirl/render/frame_source.hpp"
-#include "swirl/render/movie_file.hpp"
 #include "track/synthetic/camera_view.hpp"
-#endif
 
 namespace swirl {
 namespace {
@@ -52,12 +49,6 @@ struct SyntheticVideoCall {
     bool rolls = false, mirrored = false, still = false, flat = false, interlaced = false;
     bool overwrite = false, quiet = false;
 };
-
-#ifndef SWIRL_DRAWING
-
-void make_synthetic_video(const SyntheticVideoCall&) { throw_no_drawing_support(); }
-
-#else
 
 /// The direction and share of a light from one side, and levels by contrast. Throws UsageError.
 template <typename Apply>
@@ -331,8 +322,6 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
         disc_file.string(), container_file.string(), json_file.string()));
 }
 
-#endif  // SWIRL_DRAWING
-
 void add_synthetic_video_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SyntheticVideoCall>();
     const char* section = "Video";
@@ -414,9 +403,7 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     subcommand.callback([call] { make_synthetic_video(*call); });
 }
 
-const Command synthetic_video_command(71, "synthetic-video",
-                                      "Make a video of a run with known ground truth",
-                                      add_synthetic_video_command);
+const Command synthetic_video_command("synthetic-video", add_synthetic_video_command);
 
 }  // namespace
 }  // namespace swirl

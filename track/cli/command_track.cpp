@@ -8,27 +8,24 @@
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/track_options.hpp"
 #include "swirl/io/optional_file.hpp"
 #include "swirl/math/unit_circle.hpp"
+#include "swirl/render/label.hpp"
+#include "swirl/render/movie.hpp"
+#include "swirl/render/movie_file.hpp"
+#include "swirl/render/tracked_source.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
 #include "track/cli/recorded_path.hpp"
 #include "track/cli/tracked_video.hpp"
-#ifdef SWIRL_CAMERA
-#include "swirl/render/label.hpp"
-#include "swirl/render/movie.hpp"
-#include "swirl/render/movie_file.hpp"
-#include "swirl/render/tracked_source.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
-#endif
 
 namespace swirl {
 namespace {
@@ -42,12 +39,6 @@ struct TrackCall {
     std::string skip, accept, tilt;
     bool spin = false, quiet = false, verbose = false, overwrite = false;
 };
-
-#ifndef SWIRL_CAMERA
-
-void track(const TrackCall&) { throw_no_camera_support(); }
-
-#else
 
 using namespace tracking;
 
@@ -361,8 +352,6 @@ void track(TrackCall call) {
     if (!report.empty()) print_all(fmt::format("wrote {}\n", report.string()));
 }
 
-#endif
-
 void add_track_command(Subcommand& subcommand) {
     const auto call = std::make_shared<TrackCall>();
     const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
@@ -407,8 +396,7 @@ void add_track_command(Subcommand& subcommand) {
     subcommand.callback([call] { track(*call); });
 }
 
-const Command track_command(40, "track", "Track the discs in a video of a swirled container",
-                            add_track_command);
+const Command track_command("track", add_track_command);
 
 }  // namespace
 }  // namespace swirl

@@ -1,4 +1,3 @@
-#ifdef SWIRL_CAMERA
 #include "track/cli/recorded_path.hpp"
 
 #include <fmt/format.h>
@@ -105,4 +104,3 @@ std::vector<std::string> motion_warnings(const RecordedMotion& motion) {
 }
 
 }  // namespace swirl
-#endif

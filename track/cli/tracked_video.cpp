@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "swirl/run/failure.hpp"
-#ifdef SWIRL_CAMERA
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
@@ -19,12 +17,12 @@
 #include "swirl/render/label.hpp"
 #include "swirl/render/still.hpp"
 #include "swirl/render/tracked_source.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/python_script.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/version.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
-#endif
 
 namespace swirl {
 
@@ -35,8 +33,6 @@ void check_video_options(const std::optional<double>& fps,
     if (frames && !(*frames > 0))
         throw UsageError(fmt::format("--max-frames is {}, but it must be at least 1.", *frames));
 }
-
-#ifdef SWIRL_CAMERA
 
 namespace {
 
@@ -393,7 +389,5 @@ Json write_tracks(const TrackedVideo& video, const VideoSource& source,
     if (replaces) write_camera();
     return json;
 }
-
-#endif
 
 }  // namespace swirl

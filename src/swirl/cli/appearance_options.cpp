@@ -4,11 +4,9 @@
 
 #include <algorithm>
 
+#include "swirl/render/movie.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
-#ifdef SWIRL_DRAWING
-#include "swirl/render/movie.hpp"
-#endif
 
 namespace swirl {
 
@@ -36,7 +34,6 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
     return texts;
 }
 
-#ifdef SWIRL_DRAWING
 namespace {
 
 constexpr std::int64_t min_side = 16, max_side = 8192;  // side of an image, pixels
@@ -113,6 +110,5 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
             "--forces shows forces in the M-frame.\nhint: use --frame m or --frame both.");
     return result;
 }
-#endif  // SWIRL_DRAWING
 
 }  // namespace swirl

@@ -6,7 +6,6 @@
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
@@ -38,9 +37,6 @@ struct CrossingCall {
     bool uses_stdout() const { return json == "-" || table == "-"; }
 };
 
-#ifndef SWIRL_STUDY
-void run_searches(const Subcommand&, CrossingCall&) { throw_missing("crossing", "SWIRL_STUDY"); }
-#else
 const std::int64_t default_to = CrossingRules{}.to;
 
 /// One of the searches of a call: one for each combination of the lists.
@@ -319,7 +315,6 @@ void run_searches(const Subcommand& subcommand, CrossingCall& call) {
                             : fmt::format("every run failed in {} of {} searches; see the report.",
                                           results.empty, tasks.size()));
 }
-#endif  // SWIRL_STUDY
 
 void add_crossing_command(Subcommand& subcommand) {
     const auto call = std::make_shared<CrossingCall>();
@@ -368,9 +363,7 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.callback([call, &subcommand] { run_searches(subcommand, *call); });
 }
 
-const Command crossing_command(15, "crossing",
-                               "Find the number of discs at which the rotation changes sign",
-                               add_crossing_command);
+const Command crossing_command("crossing", add_crossing_command);
 
 }  // namespace
 }  // namespace swirl

@@ -5,13 +5,12 @@
 #include <set>
 
 #include "swirl/cli/commands.hpp"
-#include "swirl/cli/draw_sweep.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/sweep_options.hpp"
+#include "swirl/cli/sweep_tables.hpp"
 #include "swirl/engine/placement.hpp"
 #include "swirl/run/config.hpp"
 #include "swirl/run/failure.hpp"
@@ -41,9 +40,6 @@ struct DishCall {
     bool no_search = false, quiet = false;
 };
 
-#ifndef SWIRL_STUDY
-void describe_dish(DishCall&) { throw_missing("dish", "SWIRL_STUDY"); }
-#else
 bool has_spheres(const ParameterTexts& given) {
     const auto body = given.find("body");
     return body == given.end() || body->second == "sphere";
@@ -271,7 +267,6 @@ void describe_dish(DishCall& call) {
     if (!call.json.empty() && call.json != "-") write_output(call.json, json.dump(2) + "\n");
     if (call.json == "-") print_all(json.dump(2) + "\n");
 }
-#endif  // SWIRL_STUDY
 
 void add_dish_command(Subcommand& subcommand) {
     const auto call = std::make_shared<DishCall>();
@@ -319,8 +314,7 @@ void add_dish_command(Subcommand& subcommand) {
     subcommand.callback([call] { describe_dish(*call); });
 }
 
-const Command dish_command(14, "dish", "Options and N_c for a dish in millimetres and rpm",
-                           add_dish_command);
+const Command dish_command("dish", add_dish_command);
 
 }  // namespace
 }  // namespace swirl

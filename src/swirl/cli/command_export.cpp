@@ -153,9 +153,7 @@ void add_export_command(Subcommand& subcommand) {
     subcommand.callback([call] { export_file(*call); });
 }
 
-const Command export_command(
-    39, "export", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas",
-    add_export_command);
+const Command export_command("export", add_export_command);
 
 }  // namespace
 }  // namespace swirl

@@ -3,13 +3,10 @@
 
 #include "swirl/cli/appearance_options.hpp"
 #include "swirl/cli/commands.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/source_options.hpp"
-#include "swirl/run/failure.hpp"
-#ifdef SWIRL_DRAWING
 #include "swirl/render/still.hpp"
-#endif
+#include "swirl/run/failure.hpp"
 
 namespace swirl {
 namespace {
@@ -24,9 +21,6 @@ struct ImageCall {
     bool quiet = false;
 };
 
-#ifndef SWIRL_DRAWING
-void draw_and_report(const ImageCall&) { throw_no_drawing_support(); }
-#else
 void draw_and_report(const ImageCall& call) {
     StillConfig config;
     if (call.out.empty()) throw UsageError("missing required option --out FILE.");
@@ -49,7 +43,6 @@ void draw_and_report(const ImageCall& call) {
         print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, start,
                               config.appearance.size.width, config.appearance.size.height));
 }
-#endif  // SWIRL_DRAWING
 
 void add_image_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ImageCall>();
@@ -76,7 +69,7 @@ void add_image_command(Subcommand& subcommand) {
     });
 }
 
-const Command image_command(61, "image", "Draw the container at one instant", add_image_command);
+const Command image_command("image", add_image_command);
 
 }  // namespace
 }  // namespace swirl

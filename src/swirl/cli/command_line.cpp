@@ -80,6 +80,9 @@ std::string stored_path(const std::string& file) {
 
 std::string stored_config(const std::string& text) { return omits_paths() ? "" : text; }
 
-void remember_command_line(int argc, char** argv) { stored_words().assign(argv + 1, argv + argc); }
+void remember_command_line(const char* command, int argc, char** argv) {
+    stored_words().assign(argv + 1, argv + argc);
+    stored_words().insert(stored_words().begin(), command);
+}
 
 }  // namespace swirl

@@ -20,6 +20,6 @@ std::string command_line();
 /// What results store of the name of a file, and of the text of a configuration file.
 std::string stored_path(const std::string& file);
 std::string stored_config(const std::string& text);
-void remember_command_line(int argc, char** argv);
+void remember_command_line(const char* command, int argc, char** argv);
 
 }  // namespace swirl

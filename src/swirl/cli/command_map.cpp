@@ -8,7 +8,6 @@
 
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/config_file.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
@@ -47,9 +46,6 @@ struct MapCall {
     bool is_part() const { return !sharing.part.empty(); }
 };
 
-#ifndef SWIRL_STUDY
-void make_map(const Subcommand&, MapCall&) { throw_missing("map", "SWIRL_STUDY"); }
-#else
 /// Throws UsageError for the folder of a sweep.
 SweepPlan map_in(const std::string& folder) {
     SweepPlan plan = read_plan(folder);
@@ -263,7 +259,6 @@ void make_map(const Subcommand& subcommand, MapCall& call) {
                     "for table and figure `swirl map --out {}`.\n",
                     submit(script, call.out), shell_word(call.out), shell_word(call.out)));
 }
-#endif  // SWIRL_STUDY
 
 void add_map_options(Subcommand& subcommand, MapCall& call) {
     const char *const map = "Map", *const crossing = "N_c";
@@ -320,7 +315,7 @@ void add_map_command(Subcommand& subcommand) {
     subcommand.callback([call, &subcommand] { make_map(subcommand, *call); });
 }
 
-const Command map_command(32, "map", "Map a quantity over one or two parameters", add_map_command);
+const Command map_command("map", add_map_command);
 
 }  // namespace
 }  // namespace swirl

@@ -210,8 +210,7 @@ void add_measure_command(Subcommand& subcommand) {
     subcommand.callback([call] { measure_file(*call); });
 }
 
-const Command measure_command(41, "measure", "Apply the measurements to recorded frames or tracks",
-                              add_measure_command);
+const Command measure_command("measure", add_measure_command);
 
 }  // namespace
 }  // namespace swirl

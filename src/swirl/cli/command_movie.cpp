@@ -7,16 +7,13 @@
 
 #include "swirl/cli/appearance_options.hpp"
 #include "swirl/cli/commands.hpp"
-#include "swirl/cli/missing_parts.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/source_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/render/movie.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/report.hpp"
-#ifdef SWIRL_DRAWING
-#include "swirl/render/movie.hpp"
-#endif
 
 namespace swirl {
 namespace {
@@ -31,9 +28,6 @@ struct MovieCall {
     bool quiet = false;
 };
 
-#ifndef SWIRL_DRAWING
-void make_and_report(const MovieCall&) { throw_no_drawing_support(); }
-#else
 MovieConfig movie_config(const MovieCall& call) {
     MovieConfig config;
     config.out = call.out;
@@ -106,7 +100,6 @@ void make_and_report(const MovieCall& call) {
         throw Interrupted(fmt::format("stopped after {} of {} frames; they are in '{}'.",
                                       result.frames, config.frames, where));
 }
-#endif  // SWIRL_DRAWING
 
 void add_movie_command(Subcommand& subcommand) {
     const auto call = std::make_shared<MovieCall>();
@@ -141,8 +134,7 @@ void add_movie_command(Subcommand& subcommand) {
     });
 }
 
-const Command movie_command(60, "movie", "Make a movie in the lab frame or the M-frame",
-                            add_movie_command);
+const Command movie_command("movie", add_movie_command);
 
 }  // namespace
 }  // namespace swirl

@@ -9,10 +9,10 @@
 #include "swirl/cli/config_file.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/sweep_options.hpp"
-#include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parameters.hpp"
+#include "swirl/run/programs.hpp"
 #include "swirl/run/python_script.hpp"
 #include "swirl/run/version.hpp"
 
@@ -46,12 +46,12 @@ nlohmann::ordered_json json_of(const PaperCall& call) {
                                 {"version", version()},
                                 {"build", build_description()},
                                 {"defaults", config_json(config)},
-                                {"program", system::program_file().string()}};
+                                {"program", main_program().string()}};
     if (call.seeds) json["first_seeds"] = *call.seeds;
     if (!call.share.part.empty()) json["part"] = {share.part, share.parts};
     // The module is next to the program (build tree), in the same prefix, or where Python looks.
     for (const char* const where : {"python", "../lib/python3/dist-packages"})
-        if (const fs::path module = system::program_file().parent_path() / where;
+        if (const fs::path module = main_program().parent_path() / where;
             !json.contains("module") && fs::exists(module / "swirl"))
             json["module"] = module.lexically_normal().string();
     return json;
@@ -97,8 +97,7 @@ void add_paper_command(Subcommand& subcommand) {
     });
 }
 
-const Command paper_command(20, "paper", "Make the paper's figures from simulation",
-                            add_paper_command);
+const Command paper_command("paper", add_paper_command);
 
 }  // namespace
 }  // namespace swirl

@@ -265,8 +265,7 @@ void add_run_command(Subcommand& subcommand) {
     subcommand.callback([call] { run_and_report(*call); });
 }
 
-const Command run_command(10, "run", "Simulate one system and report its averages",
-                          add_run_command);
+const Command run_command("run", add_run_command);
 
 }  // namespace
 }  // namespace swirl

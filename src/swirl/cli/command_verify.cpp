@@ -455,9 +455,7 @@ void add_verify_command(Subcommand& subcommand) {
     });
 }
 
-const Command verify_command(43, "verify",
-                             "Repeat the run of a result or recording and compare bitwise",
-                             add_verify_command);
+const Command verify_command("verify", add_verify_command);
 
 }  // namespace
 }  // namespace swirl

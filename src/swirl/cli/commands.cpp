@@ -1,6 +1,6 @@
 #include "swirl/cli/commands.hpp"
 
-#include <algorithm>
+#include <filesystem>
 
 namespace swirl {
 namespace {
@@ -12,16 +12,16 @@ std::vector<const Command*>& registered() {
 
 }  // namespace
 
-Command::Command(int order, const char* name, const char* description, Add add)
-    : order_(order), name_(name), description_(description), add_(add) {
+Command::Command(const char* name, Add add) : name_(name), add_(add) {
     registered().push_back(this);
 }
 
-std::vector<const Command*> Command::all() {
-    std::vector<const Command*> commands = registered();
-    std::sort(commands.begin(), commands.end(),
-              [](const Command* a, const Command* b) { return a->order() < b->order(); });
-    return commands;
+const Command* Command::of_program(const char* argv0) {
+    if (registered().size() == 1) return registered().front();
+    const std::string program = std::filesystem::path(argv0).filename().string();
+    for (const Command* const command : registered())
+        if (program == std::string("swirl-") + command->name()) return command;
+    return nullptr;
 }
 
 }  // namespace swirl

@@ -1,8 +1,9 @@
-// The subcommands. Each has its own file command_<name>.cpp and registers itself by
+// The subcommands. Each has its own file command_<name>.cpp, which registers it by
 //
-//     namespace { const swirl::Command run_command(10, "run", "One run", add_run_command); }
+//     namespace { const swirl::Command run_command("run", add_run_command); }
 //
-// A new subcommand needs no other change.
+// and a row in command_list.hpp. A program contains one command. In packages, one program contains them
+// all (cmake/install.cmake).
 #pragma once
 
 #include <memory>
@@ -16,22 +17,18 @@ class Command {
   public:
     using Add = void (*)(Subcommand& subcommand);
 
-    /// `order` sorts the list in `swirl --help`. `add` defines the options and the callback of the
-    /// subcommand.
-    Command(int order, const char* name, const char* description, Add add);
+    /// `add` defines the options and the callback of the subcommand.
+    Command(const char* name, Add add);
 
-    int order() const { return order_; }
     const char* name() const { return name_; }
-    const char* description() const { return description_; }
     void add_options(Subcommand& subcommand) const { add_(subcommand); }
 
-    /// All subcommands, sorted.
-    static std::vector<const Command*> all();
+    /// The command of this program; if it contains several, the one that its file name `argv0`, such as
+    /// swirl-run, has. Nothing if it does not contain that one.
+    static const Command* of_program(const char* argv0);
 
   private:
-    int order_;
     const char* name_;
-    const char* description_;
     Add add_;
 };
 

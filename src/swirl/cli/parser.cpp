@@ -6,15 +6,14 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <deque>
 #include <utility>
 #include <vector>
 
+#include "swirl/cli/command_list.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/reading.hpp"
-#include "swirl/run/version.hpp"
 
 namespace swirl {
 namespace {
@@ -60,18 +59,10 @@ std::string wrapped(const std::string& text, std::size_t width) {
 constexpr std::size_t column_of_descriptions = 34;
 constexpr int max_values = 100;  // values of a repeated option
 
-/// The named subcommand, or the program itself.
-const CLI::App& selected_app(const CLI::App& app) {
-    const auto subcommands = app.get_subcommands();
-    return subcommands.empty() ? app : selected_app(*subcommands.front());
-}
-
 /// "did you mean --discs?", or nothing.
 std::string nearest_name_hint(const CLI::App& app, const std::string& unknown) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
-    for (const CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
-        names.push_back(subcommand->get_name());
     const auto nearest = nearest_name(unknown.substr(0, unknown.find('=')), names);
     return nearest ? "did you mean " + *nearest + "?" : "";
 }
@@ -90,19 +81,15 @@ struct Message {
     std::string text, hint = {};
 };
 
-Message message_on_extras(const CLI::App& app, const CLI::App& selected,
-                          const std::string& first_word) {
-    // The options after a misspelled command may be right.
-    if (&selected == &app && !first_word.starts_with('-'))
-        return {"there is no command '" + first_word + "'.", nearest_name_hint(app, first_word)};
+Message message_on_extras(const CLI::App& app) {
     // The parser returns the words in reverse order; an unknown option comes before its value.
-    auto extras = app.remaining(true);
+    auto extras = app.remaining();
     std::erase(extras, "--");
     for (const std::string& extra : extras)
         if (extra.starts_with('-'))
-            return {"there is no option " + extra + ".", nearest_name_hint(selected, extra)};
+            return {"there is no option " + extra + ".", nearest_name_hint(app, extra)};
     const std::string extra = extras.empty() ? "" : without_mark(extras.front());
-    return {"unexpected argument '" + extra + "'.", nearest_name_hint(selected, extra)};
+    return {"unexpected argument '" + extra + "'.", nearest_name_hint(app, extra)};
 }
 
 Message message_on_missing_value(const std::string& what) {
@@ -123,37 +110,34 @@ Message message_on_conversion(const std::string& what) {
                         read_number(value) ? "whole number" : "number")};
 }
 
-Message message_on_missing_option(const CLI::App& app, const CLI::App& selected,
-                                  const std::string& what, const std::string& first_word) {
+Message message_on_missing_option(const CLI::App& app, const std::string& what) {
     // An unknown option may be the missing one under another name.
-    const auto extras = app.remaining(true);
+    const auto extras = app.remaining();
     if (std::any_of(extras.begin(), extras.end(), [](const std::string& extra) {
             return extra.starts_with("--") && extra != "--";
         }))
-        return message_on_extras(app, selected, first_word);
+        return message_on_extras(app);
     const std::string name = what.substr(0, what.find(' '));
-    const CLI::Option* const option = selected.get_option_no_throw(name);
+    const CLI::Option* const option = app.get_option_no_throw(name);
     const std::string form = option ? " " + option->get_type_name() : "";
     return {name.starts_with('-') ? "missing required option " + name + form + "."
                                   : "missing required argument " + name + "."};
 }
 
-std::string error_text(const CLI::App& app, const CLI::ParseError& error,
-                       const std::string& first_word) {
-    const CLI::App& selected = selected_app(app);
+std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
     Message message{"invalid arguments."};
     if (dynamic_cast<const CLI::ExtrasError*>(&error))
-        message = message_on_extras(app, selected, first_word);
+        message = message_on_extras(app);
     else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error))
         message = message_on_missing_value(error.what());
     else if (dynamic_cast<const CLI::ConversionError*>(&error))
         message = message_on_conversion(error.what());
     else if (dynamic_cast<const CLI::RequiredError*>(&error))
-        message = message_on_missing_option(app, selected, error.what(), first_word);
-    const std::string command = &selected == &app ? "swirl" : "swirl " + selected.get_name();
+        message = message_on_missing_option(app, error.what());
     return message.hint.empty()
-               ? fmt::format("{}\nhint: see `{} --help`.", message.text, command)
-               : fmt::format("{}\nhint: {} See `{} --help`.", message.text, message.hint, command);
+               ? fmt::format("{}\nhint: see `{} --help`.", message.text, app.get_name())
+               : fmt::format("{}\nhint: {} See `{} --help`.", message.text, message.hint,
+                             app.get_name());
 }
 
 /// Wraps descriptions at the width of the terminal, and shows a repeated argument as "VIDEO..." in
@@ -223,8 +207,8 @@ std::string short_help(const CLI::App& app, const Subcommand& subcommand) {
     set_help_options(main_only);
     add_to(main_only, subcommand, Options::main);
     const std::string& examples = subcommand.examples();
-    main_only.footer(fmt::format("All options: swirl {} --help\n\n{}", app.get_name(), examples));
-    return main_only.help("swirl");
+    main_only.footer(fmt::format("All options: {} --help\n\n{}", app.get_name(), examples));
+    return main_only.help();
 }
 
 void note_given(const CLI::App& app, Subcommand& subcommand) {
@@ -267,47 +251,26 @@ static std::string help_of(const CLI::App& app) {
     return text;
 }
 
-Call parse(int argc, char** argv) {
-    CLI::App app(
-        "Exact event-driven simulation of granular discs and spheres in a swirled container,\n"
-        "after Lee et al., Phys. Rev. E 100, 012903 (2019).",
-        "swirl");
-    app.set_version_flag("--version", version());
-    app.require_subcommand(0, 1);
+Call parse(const Command& command, int argc, char** argv) {
+    const CommandRow* const row = command_named(command.name());
+    CLI::App app(std::string(row->description), std::string("swirl ") + command.name());
     set_help_options(app);
-    const auto subcommands = std::make_shared<std::deque<std::pair<CLI::App*, Subcommand>>>();
-    for (const Command* command : Command::all()) {
-        auto& [added, subcommand] = subcommands->emplace_back();
-        added = app.add_subcommand(command->name(), command->description());
-        command->add_options(subcommand);
-        add_to(*added, subcommand, Options::all);
-        added->footer([here = &subcommand] { return wrapped(here->footer(), help_width()); });
-    }
-    app.footer(
-        "Examples:\n  swirl run --discs 48\n  swirl paper --figure 5b --quick\n  swirl run --help");
+    const auto subcommand = std::make_shared<Subcommand>();
+    command.add_options(*subcommand);
+    add_to(app, *subcommand, Options::all);
+    app.footer([&] { return wrapped(subcommand->footer(), help_width()); });
     try {
         app.parse(reversed_words(argc, argv));
-    } catch (const CLI::CallForVersion& version_call) {
-        return {.act = {}, .text = std::string(version_call.what()) + "\n", .usage = {}};
+    } catch (const CLI::CallForAllHelp&) {
+        return {.text = help_of(app)};
     } catch (const CLI::CallForHelp&) {
-        for (const auto& [added, subcommand] : *subcommands)
-            if (added->parsed())
-                return {.act = {}, .text = short_help(*added, subcommand), .usage = {}};
-        return {.act = {}, .text = help_of(app), .usage = {}};
-    } catch (const CLI::Success&) {
-        return {.act = {}, .text = help_of(app), .usage = {}};
+        return {.text = short_help(app, *subcommand)};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(error_text(app, error, argc > 1 ? argv[1] : ""));
+        throw UsageError(error_text(app, error));
     }
-    Call call{.act = {}, .text = {}, .usage = app.help()};
-    for (auto& [added, subcommand] : *subcommands)
-        if (added->parsed()) note_given(*added, subcommand);
-    for (const auto& [added, subcommand] : *subcommands)
-        if (added->parsed()) {
-            call.check = [subcommands, chosen = &subcommand] { chosen->check(); };
-            call.act = [subcommands, chosen = &subcommand] { chosen->act(); };
-        }
-    return call;
+    note_given(app, *subcommand);
+    return {.check = [subcommand] { subcommand->check(); },
+            .act = [subcommand] { subcommand->act(); }};
 }
 
 }  // namespace swirl

@@ -1,4 +1,4 @@
-// Parses the arguments of the program.
+// Parses the arguments of a command.
 #pragma once
 
 #include <functional>
@@ -6,15 +6,16 @@
 
 namespace swirl {
 
+class Command;
+
 /// The parsed arguments.
 struct Call {
     std::function<void()> check = {};  // throws UsageError for a wrong call
-    std::function<void()> act;         // the subcommand with its options; empty if there is none
-    std::string text;                  // the output of --help or --version
-    std::string usage;                 // the help of the whole program
+    std::function<void()> act = {};    // the command with its options
+    std::string text = {};             // the output of --help, instead of these
 };
 
 /// Throws UsageError for invalid arguments.
-Call parse(int argc, char** argv);
+Call parse(const Command& command, int argc, char** argv);
 
 }  // namespace swirl

@@ -8,17 +8,15 @@
 #include "swirl/cli/config_file.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/run_options.hpp"
-#include "swirl/run/failure.hpp"
-#ifdef SWIRL_DRAWING
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/trial_reading.hpp"
 #include "swirl/render/label.hpp"
 #include "swirl/render/numbered_frames.hpp"
 #include "swirl/render/page.hpp"
 #include "swirl/render/tracked_source.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
-#endif
 
 namespace swirl {
 
@@ -50,7 +48,6 @@ void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::st
     take_config_file(subcommand, config, *texts.parameters, Lists::rejected, command, instead);
 }
 
-#ifdef SWIRL_DRAWING
 namespace {
 
 RollingBall ball_of(const SourceTexts& texts, const RunConfig& container) {
@@ -161,6 +158,5 @@ void print_source_warnings(const std::vector<FrameSource>& sources, const Appear
                        frames, min_rate_of_pinned);
     }
 }
-#endif  // SWIRL_DRAWING
 
 }  // namespace swirl

@@ -1,89 +1,136 @@
-// The program: parses the arguments, calls the subcommand, and turns exceptions into an error
-// message and an exit code: 0 success, 1 failure, 2 usage error, 130 stopped by a signal.
-#include <fcntl.h>
+// The program `swirl`: lists the commands, and becomes the program of the one that is called. It uses the
+// standard library only, because its start is part of every call.
+#include <unistd.h>
 
-#include <csignal>
+#include <cerrno>
 #include <cstdio>
-#include <cstdlib>
+#include <cstring>
 #include <exception>
-#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
 
-#include "swirl/cli/command_line.hpp"
-#include "swirl/cli/output.hpp"
-#include "swirl/cli/parser.hpp"
-#include "swirl/run/failure.hpp"
-#include "swirl/run/simd.hpp"
+#include "swirl/cli/command_list.hpp"
+#include "swirl/io/short_values.hpp"
+#include "swirl/io/utf8.hpp"
+#include "swirl/run/names.hpp"
+#include "swirl/run/programs.hpp"
+#include "swirl/run/version.hpp"
 
 namespace {
 
-int report_error(const char* text, int exit_code) {
-    swirl::print_error(text);
+constexpr int failure = 1, usage_error = 2;
+
+int report_error(int exit_code, const std::string& text, const std::string& hint) {
+    const std::string shown = swirl::with_short_values(text);
+    std::fprintf(stderr, "error: %s\nhint: %s\n", shown.c_str(), hint.c_str());
     return exit_code;
 }
 
-constexpr const char* not_enough_memory = "not enough memory.\nhint: use fewer discs.";
-
-/// Handler for std::terminate(). The libraries for JSON and the command line allocate memory in
-/// functions that must not throw, such as destructors, so a bad_alloc there cannot be caught. g++
-/// does not always provide the current exception here. Recordings can be resumed, as after a kill.
-[[noreturn]] void on_terminate() {
-    bool out_of_memory = std::uncaught_exceptions() > 0;
-    try {
-        if (const auto thrown = std::current_exception()) std::rethrow_exception(thrown);
-    } catch (const std::bad_alloc&) {
-        out_of_memory = true;
-    } catch (...) {
-        out_of_memory = false;
+std::string list_of_commands() {
+    constexpr std::size_t column = 34;
+    std::string text(swirl::help_before_commands.substr(1));
+    std::string_view group;
+    for (const swirl::CommandRow& row : swirl::command_list) {
+        if (row.is_script()) continue;
+        if (row.group != group) text += "\n" + std::string(row.group) + ":\n";
+        group = row.group;
+        std::string line = "  " + std::string(row.name);
+        line.resize(column, ' ');
+        text += line + std::string(row.description) + "\n";
     }
-    if (out_of_memory) std::_Exit(report_error(not_enough_memory, 1));
-    std::abort();
+    return text + std::string(swirl::help_after_commands);
+}
+
+int print_all(const std::string& text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
+        return 0;
+    std::fprintf(stderr, "error: writing to standard output failed: %s.\n", std::strerror(errno));
+    return failure;
+}
+
+/// What the build lacks for a command; empty if nothing.
+std::string_view missing_library(const swirl::CommandRow& row) {
+    if (row.libraries.find("camera") != row.libraries.npos && !SWIRL_HAS_CAMERA) return "camera";
+    if (row.libraries.find("drawing") != row.libraries.npos && !SWIRL_HAS_DRAWING) return "drawing";
+    return {};
+}
+
+int report_missing(const swirl::CommandRow& row) {
+    const std::string name(row.name);
+    const std::string_view library = missing_library(row);
+    if (library == "camera")
+        return report_error(
+            failure, "this build has no camera support (OpenCV was not found).",
+            "install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl " + name +
+                " does both.");
+    if (library == "drawing")
+        return report_error(failure, "this build cannot draw (cairo was not found).",
+                            "install libcairo2-dev and rebuild; ./swirl " + name + " does both.");
+    return report_error(
+        failure, "the program of `swirl " + name + "`, swirl-" + name + ", is not installed.",
+        "in the source folder, ./swirl " + name + " builds it.");
+}
+
+int reject_unknown(const std::string& word) {
+    if (swirl::first_byte_not_utf8(word))
+        return report_error(usage_error, "the name of the command is not UTF-8 text.",
+                            "see `swirl --help`.");
+    std::vector<std::string> names{"--help", "--version"};
+    if (!word.starts_with('-'))
+        for (const swirl::CommandRow& row : swirl::command_list)
+            if (!row.is_script()) names.emplace_back(row.name);
+    const auto nearest = swirl::nearest_name(word.substr(0, word.find('=')), names);
+    return report_error(
+        usage_error,
+        (word.starts_with('-') ? "there is no option " + word + "."
+                               : "there is no command '" + word + "'."),
+        nearest ? "did you mean " + *nearest + "? See `swirl --help`." : "see `swirl --help`.");
+}
+
+/// Becomes the program of the command, which gets these words.
+int run_command(const std::string& name, std::vector<char*> words) {
+    const swirl::CommandRow* const row = swirl::command_named(name);
+    if (row == nullptr) return reject_unknown(name);
+    if (row->is_script())
+        return report_error(usage_error,
+                            "`swirl " + name + "` belongs to the source folder of swirl.",
+                            "run ./swirl " + name + " there.");
+    if (!missing_library(*row).empty()) return report_missing(*row);
+    const std::string program = swirl::program_of_command(name).string();
+    if (program.empty()) return report_missing(*row);
+    std::string program_name = "swirl-" + name;  // swirl-commands chooses the command by it
+    words.insert(words.begin(), program_name.data());
+    words.push_back(nullptr);
+    execv(program.c_str(), words.data());
+    return report_error(failure,
+                        "'" + program + "' cannot be started: " + std::strerror(errno) + ".",
+                        "install swirl again.");
 }
 
 int main_or_throw(int argc, char** argv) {
-    swirl::reject_invalid_utf8(argc, argv);
-    const swirl::Call call = swirl::parse(argc, argv);
-    if (!call.text.empty()) {
-        swirl::print_all(call.text);
-        return 0;
+    if (argc < 2) {
+        std::fputs(list_of_commands().c_str(), stderr);
+        return usage_error;
     }
-    if (!call.act) {
-        std::fputs(call.usage.c_str(), stderr);
-        return 2;
+    const std::string word = argv[1];
+    if (word == "--version") return print_all(swirl::version() + "\n");
+    if (word == "--help" || word == "-h" || (word == "help" && argc == 2))
+        return print_all(list_of_commands());
+    if (word == "help") {
+        std::string all_options = "--help";
+        return run_command(argv[2], {all_options.data()});
     }
-    if (call.check) call.check();
-    // ./swirl checks a call in this way before it installs packages for it.
-    if (std::getenv("SWIRL_PARSE_ONLY")) return 0;
-    (void)swirl::selected_width();  // rejects an invalid SWIRL_SIMD before any work
-    call.act();
-    return 0;
-}
-
-/// If stdin, stdout or stderr is closed, the next opened file would get its number, and messages
-/// would be written into it. The replacement is read-only, so output to it fails with an error.
-void reserve_standard_descriptors() {
-    for (int number = 0; number <= 2; ++number)
-        if (fcntl(number, F_GETFD) < 0) (void)open("/dev/null", O_RDONLY);
+    return run_command(word, {argv + 2, argv + argc});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::set_terminate(on_terminate);
-    reserve_standard_descriptors();
-    // Exceeding the file size limit becomes an error of write(), like a full disk.
-    std::signal(SIGXFSZ, SIG_IGN);
-    swirl::remember_command_line(argc, argv);
     try {
         return main_or_throw(argc, argv);
-    } catch (const swirl::UsageError& error) {
-        return report_error(error.what(), 2);
-    } catch (const swirl::Interrupted& interrupted) {
-        return report_error(interrupted.what(), 130);
-    } catch (const swirl::Failure& failure) {
-        return report_error(failure.what(), 1);
-    } catch (const std::bad_alloc&) {
-        return report_error(not_enough_memory, 1);
     } catch (const std::exception& unexpected) {
-        return report_error(unexpected.what(), 1);
+        std::fprintf(stderr, "error: %s.\n", unexpected.what());
+        return failure;
     }
 }

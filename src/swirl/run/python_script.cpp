@@ -1,7 +1,6 @@
 #include "swirl/run/python_script.hpp"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,8 +9,8 @@
 #include <system_error>
 
 #include "swirl/io/child_process.hpp"
-#include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/programs.hpp"
 
 namespace swirl {
 namespace {
@@ -43,16 +42,9 @@ std::string last_message(std::string text) {
     return text.substr(begin);
 }
 
-/// True if a folder has the scripts, and its owner is root or that of the program. Scripts that
-/// another user has put next to a copied program are not run.
-bool has_scripts_of_owner(const fs::path& folder, const fs::path& program) {
-    struct stat of_program {
-    }, of_folder{}, of_script{};
-    if (stat(program.c_str(), &of_program) != 0 || stat(folder.c_str(), &of_folder) != 0 ||
-        stat((folder / "style.py").c_str(), &of_script) != 0)
-        return false;
-    const auto is_trusted = [&](uid_t owner) { return owner == 0 || owner == of_program.st_uid; };
-    return is_trusted(of_folder.st_uid) && is_trusted(of_script.st_uid);
+/// True if a folder has the scripts, and its owner may run in place of the program.
+bool has_trusted_scripts(const fs::path& folder, const fs::path& program) {
+    return is_trusted(folder, program) && is_trusted(folder / "style.py", program);
 }
 
 }  // namespace
@@ -60,10 +52,10 @@ bool has_scripts_of_owner(const fs::path& folder, const fs::path& program) {
 fs::path figures_folder() {
     if (const char* const given = std::getenv("SWIRL_FIGURES"); given && *given)
         return fs::absolute(given);
-    const fs::path program = system::program_file();
+    const fs::path program = main_program();
     for (const char* const where : {"../share/swirl/paper", "share/swirl/paper"})
         if (const fs::path folder = (program.parent_path() / where).lexically_normal();
-            has_scripts_of_owner(folder, program))
+            has_trusted_scripts(folder, program))
             return folder;
     throw Failure(fmt::format(
         "the scripts of the figures are not in '{}', where an installed program has them.\n"

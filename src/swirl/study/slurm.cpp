@@ -12,8 +12,8 @@
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/child_process.hpp"
 #include "swirl/io/optional_file.hpp"
-#include "swirl/io/system_calls.hpp"
 #include "swirl/run/failure.hpp"
+#include "swirl/run/programs.hpp"
 #include "swirl/run/shell_word.hpp"
 
 namespace swirl {
@@ -82,7 +82,7 @@ fs::path absolute_folder(const fs::path& folder) { return fs::absolute(folder).l
 
 std::string slurm_script(const SlurmJob& job, const fs::path& folder, const char* command) {
     const fs::path sweep = absolute_folder(folder);
-    const fs::path program = system::program_file();
+    const fs::path program = main_program();
     validate_characters("--time", job.time, ":-", "a time for sbatch, for example 2:00:00 or 1-12");
     validate_characters("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";

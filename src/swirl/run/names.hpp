@@ -1,0 +1,26 @@
+// Names of options, values and commands: their spellings, and the one that a wrong name stands for.
+//
+// A name has underscores in files and in code (mu_disc), and hyphens as an option (--mu-disc). Both
+// spellings are accepted everywhere, and so are colour and color, centre and center.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swirl {
+
+/// "mu_disc" for both spellings; "color" and "centre" for British and American ones.
+std::string plain_name(std::string_view name);
+/// "--mu-disc"
+std::string option_name(std::string_view name);
+
+/// The name that the user probably means: first one of equal meaning ("json" for "out"), then the
+/// one with the smallest edit distance, then the only one that begins with `unknown`. The distance
+/// must not exceed 2 or a third of the length of `unknown`, whichever is larger, and must be less
+/// than half of the length of the longer name. Dashes at the start do not count.
+std::optional<std::string> nearest_name(std::string_view unknown,
+                                        const std::vector<std::string>& names);
+
+}  // namespace swirl
