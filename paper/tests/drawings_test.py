@@ -556,7 +556,7 @@ class Drawings(unittest.TestCase):
 
     def test_second_argument_is_the_width_of_slices(self):
         def curve(*more):
-            with mock.patch("optional_file.exists", lambda file: True), mock.patch.object(
+            with mock.patch("paper.optional_file.exists", lambda file: True), mock.patch.object(
                 style, "read", lambda table: TABLES["3a"]
             ), mock.patch.object(
                 style, "save", lambda drawing, table: made.append(drawing)
