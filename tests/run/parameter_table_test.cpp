@@ -66,7 +66,9 @@ TEST(ParameterTable, InTheDocsIsUpToDate) {
         std::ofstream(page) << docs;
         return;
     }
-    EXPECT_EQ(docs.substr(first, to - first), table());
+    EXPECT_TRUE(docs.substr(first, to - first) == table())
+        << "docs/reference/parameters.md differs from the rows. This command writes it: "
+           "SWIRL_WRITE_DOCS=1 build/tests/tests/test_run --gtest_filter='ParameterTable.*'";
 }
 
 TEST(ParameterTable, DescriptionsFitIntoTheHelp) {
