@@ -142,7 +142,7 @@ Change change_between(const RunConfig& a, const RunConfig& b) {
     constexpr std::int64_t most = 400;  // more discs are not added one by one
     RunConfig like = with_path_of(a, b);
     for (const Parameter& p : run_parameters)
-        if (p.changes != Changes::never && p.number()) like.*p.number() = a.*p.number();
+        if (p.changes != Changes::new_run && p.number()) like.*p.number() = a.*p.number();
     like.warmup = a.warmup;
     const std::int64_t discs = b.discs;
     const bool are_equal = !has_unequal_sizes(a) && (a.cannot_spin == 0.0 || a.cannot_spin == 1.0);
