@@ -33,7 +33,7 @@ def all_helps(**more):
     """Command and help text."""
     yield "swirl", swirl("--help", **more).stdout
     for name in commands():
-        yield f"swirl {name}", swirl(name, "--help", **more).stdout
+        yield f"swirl {name}", swirl("help", name, "all", **more).stdout
     for name in SCRIPTS:
         yield f"swirl {name}", help_of_script(name)
 

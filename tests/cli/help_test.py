@@ -9,7 +9,7 @@ import subprocess
 import termios
 import unittest
 
-from program import SOURCE, SWIRL, ProgramTest, commands, read_text, result_of, swirl
+from program import SOURCE, SWIRL, ProgramTest, commands, help_of, read_text, result_of, swirl
 
 
 def source_folders():
@@ -76,7 +76,7 @@ class Help(ProgramTest):
 
     def test_examples_use_only_options_that_exist(self):
         for name in commands():
-            text = swirl(name, "--help").stdout
+            text = help_of(name)
             known = set(re.findall(r"(--[a-z0-9-]+)", text[: text.index("Examples:")]))
             for example in examples(text):
                 if not example.startswith(f"swirl {name} "):
@@ -87,7 +87,7 @@ class Help(ProgramTest):
     def test_descriptions_are_short_noun_phrases(self):
         seen = 0
         for name in commands():
-            for option, description in described_options(swirl(name, "--help").stdout):
+            for option, description in described_options(help_of(name)):
                 seen += 1
                 self.assertTrue(1 <= len(description) <= 60, f"{name} {option}: {description}")
                 self.assertRegex(description, r"^[A-Z]", f"{name} {option}")
@@ -96,22 +96,52 @@ class Help(ProgramTest):
     def test_the_short_help_has_the_main_options_and_names_the_full_help(self):
         for name in commands():
             with self.subTest(name):
-                short, full = swirl(name, "-h"), swirl(name, "--help")
+                short, full = swirl(name, "-h"), help_of(name)
                 self.assertEqual((short.returncode, short.stderr), (0, ""))
                 options = dict(described_options(short.stdout))
                 options.pop("--help")
                 self.assertLessEqual(len(options), 15)
-                self.assertLessEqual(options.items(), dict(described_options(full.stdout)).items())
+                self.assertLessEqual(options.items(), dict(described_options(full)).items())
                 self.assertIn(f"\nUsage: swirl {name} [OPTIONS]", short.stdout)
                 self.assertIn(f"All options: swirl {name} --help\n", short.stdout)
-                self.assertEqual(examples(short.stdout), examples(full.stdout))
-        self.assertLess(len(swirl("run", "-h").stdout), 0.4 * len(swirl("run", "--help").stdout))
+                self.assertEqual(examples(short.stdout), examples(full))
         self.assertEqual(swirl("-h").stdout, swirl("--help").stdout)
+
+    def test_the_help_of_run_has_topics(self):
+        text = swirl("run", "--help").stdout
+        self.assertLessEqual(len(text.splitlines()), 48)
+        topics = re.findall(r"^  swirl help run ([a-z-]+) +(\d+) options$", text, re.M)
+        self.assertEqual(
+            [name for name, _ in topics], ["particles", "container", "run", "files", "output"]
+        )
+        every = dict(described_options(help_of("run")))
+        found = {}
+        for name, count in topics:
+            options = dict(described_options(swirl("help", "run", name).stdout))
+            options.pop("--help")
+            self.assertEqual(len(options), int(count), name)
+            found |= options
+        every.pop("--help")
+        self.assertEqual(found, every)
+        self.assert_fails(2, "help", "run", "partcles", says="the topics are all, particles")
+
+    def test_other_commands_refer_to_the_parameters_of_a_run(self):
+        of_run = set(dict(described_options(help_of("run"))))
+        for name in commands():
+            text, every = swirl(name, "--help").stdout, dict(described_options(help_of(name)))
+            shown = dict(described_options(text))
+            if "All parameters of a run apply" not in text:
+                self.assertTrue(name == "run" or shown == every, name)
+                continue
+            excluded = re.search(r"apply except ([^:]*): swirl help run", text)
+            missing = set(excluded[1].split(", ")) if excluded else set()
+            self.assertLessEqual(missing & set(every), set(shown), name)  # its own --periods
+            self.assertLessEqual(set(every) - set(shown), of_run, name)
 
     def test_the_help_fits_the_terminal(self):
         for columns in (60, 100):
             for name in ("run", "crossing", "image", "sweep"):
-                for line in on_terminal(columns, name, "--help").splitlines():
+                for line in on_terminal(columns, "help", name, "all").splitlines():
                     if not re.match(r"  swirl |.*  --|Usage|  -\w|    ", line):
                         self.assertLessEqual(len(line), columns, line)
         self.assertNotEqual(on_terminal(60, "run", "--help"), on_terminal(100, "run", "--help"))
@@ -170,8 +200,7 @@ class Help(ProgramTest):
 
     def test_messages_name_only_options_that_exist(self):
         known = {
-            name: set(re.findall(r"(--[a-z][a-z0-9-]+)", swirl(name, "--help").stdout))
-            for name in commands()
+            name: set(re.findall(r"(--[a-z][a-z0-9-]+)", help_of(name))) for name in commands()
         }
         everywhere = set().union(*known.values()) | {"--version", "--help"}
         seen = 0
@@ -209,10 +238,7 @@ class Help(ProgramTest):
                         self.fail(f"{file}: {before.strip()}")
 
     def test_a_parameter_has_one_name_in_tables_and_results(self):
-        options = {
-            option[2:]
-            for option in re.findall(r"(--[a-z][a-z0-9-]+)", swirl("run", "--help").stdout)
-        }
+        options = {option[2:] for option in re.findall(r"(--[a-z][a-z0-9-]+)", help_of("run"))}
 
         def keys(value, path=""):
             if isinstance(value, dict):

@@ -24,6 +24,7 @@ from program import (
     SOURCE,
     ProgramTest,
     all_scenes,
+    help_of,
     made_of_the_web,
     main,
     options,
@@ -662,7 +663,7 @@ class Laboratory(ProgramTest):
         return said["frame"][3:5]
 
     def test_the_page_knows_every_parameter_of_the_command_line(self):
-        help_text = swirl("run", "--help").stdout
+        help_text = help_of("run")
         for row in self.engine([])["parameters"]:
             if row["settable"]:
                 self.assertIn(f"--{row['name'].replace('_', '-')} ", help_text)

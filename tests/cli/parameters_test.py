@@ -14,6 +14,7 @@ from program import (
     SOURCE,
     SWIRL,
     InFolder,
+    help_of,
     read_json,
     read_text,
     result_of,
@@ -97,7 +98,7 @@ class Everywhere(InFolder):
         self.assertLessEqual(set(result_of("--events", 10)["config"]), set(DEFAULTS))
 
     def test_help(self):
-        text = swirl("run", "--help").stdout
+        text = help_of("run")
         for name, option in GIVEN.items():
             self.assertRegex(text, rf"(?m)^  {option} ", name)
 

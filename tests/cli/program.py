@@ -82,6 +82,11 @@ def commands():
     return re.findall(r"^  ([a-z][a-z-]*)  ", listed, re.M)
 
 
+def help_of(name):
+    """The help of a command with all of its options."""
+    return swirl("help", name, "all").stdout
+
+
 def wait_until(happens, process=None):
     """Waits until happens() is true. Fails if the process ends before."""
     begin = time.monotonic()

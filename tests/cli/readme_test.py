@@ -7,7 +7,7 @@ import re
 import shlex
 import unittest
 
-from program import ALL, SOURCE, commands, main, read_text, swirl
+from program import ALL, SOURCE, commands, help_of, main, read_text, swirl
 
 README = read_text(os.path.join(SOURCE, "README.md"))
 
@@ -82,7 +82,7 @@ class Readme(unittest.TestCase):
                 if not words or words[0] in ("help", "lab", "site", "python"):  # no program
                     continue
                 if words[0] not in helps:
-                    helps[words[0]] = swirl(words[0], "--help").stdout
+                    helps[words[0]] = help_of(words[0])
                     self.assertIn(f"Usage: swirl {words[0]} ", helps[words[0]], f"{name}: {call}")
                 for word in words[1:]:
                     if word.startswith("--"):

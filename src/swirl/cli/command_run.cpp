@@ -238,6 +238,7 @@ void run_and_report(RunCall& call) {
 
 void add_run_command(Subcommand& subcommand) {
     const auto call = std::make_shared<RunCall>();
+    subcommand.divide_help();
     call->parameters = add_run_options(subcommand);
     call->recording = add_recording_options(subcommand);
     const char* const output = "Output";

@@ -20,10 +20,6 @@ void Subcommand::set_examples(const std::vector<std::string>& examples) {
     for (const std::string& example : examples) examples_ += "\n  " + example;
 }
 
-std::string Subcommand::footer() const {
-    return explanation_ ? explanation_() + "\n" + examples_ : examples_;
-}
-
 std::int64_t whole_number(const char* name, const std::string& text, std::int64_t default_value,
                           std::int64_t maximum, std::int64_t minimum) {
     if (text.empty()) return default_value;

@@ -28,7 +28,8 @@ struct Option {
     /// Not 0: the option may be repeated, and its values are joined by this character.
     char joined_by = '\0';
     std::string help_group = {};  // set by Group::add()
-    bool is_given = false;        // set by parse()
+    bool is_of_run = false;  // a parameter as `swirl run` has it: `swirl help run` describes it
+    bool is_given = false;   // set by parse()
 };
 inline constexpr bool required = true;
 
@@ -50,6 +51,15 @@ class Subcommand {
     Group in(std::string group) { return {options_, std::move(group)}; }
     void add(std::vector<Option> options) { in("").add(std::move(options)); }
 
+    /// --help lists the main options and the groups of the others, each a page of its own:
+    /// `swirl help NAME GROUP`.
+    void divide_help() { is_divided_ = true; }
+    bool has_divided_help() const { return is_divided_; }
+    /// --help refers to `swirl help run` for options that are `is_of_run`. Parameters in `missing`
+    /// are no options of this command.
+    void refer_to_run(std::vector<std::string> missing) { missing_of_run_ = std::move(missing); }
+    const std::vector<std::string>& missing_of_run() const { return missing_of_run_; }
+
     /// The options in the short help (-h), by name: about ten. Without a call, all are.
     void set_main_options(std::vector<std::string> names) { main_options_ = std::move(names); }
     bool is_main(const Option& option) const;
@@ -69,8 +79,8 @@ class Subcommand {
 
     const std::deque<Option>& options() const { return options_; }
     std::deque<Option>& options() { return options_; }
-    /// The end of the full help.
-    std::string footer() const;
+    /// A text with a line break at its end, or nothing.
+    std::string explanation() const { return explanation_ ? explanation_() + "\n" : ""; }
     const std::string& examples() const { return examples_; }
     void check() const {
         if (check_) check_();
@@ -79,7 +89,8 @@ class Subcommand {
 
   private:
     std::deque<Option> options_;
-    std::vector<std::string> main_options_;
+    std::vector<std::string> main_options_, missing_of_run_;
+    bool is_divided_ = false;
     std::function<std::string()> explanation_;
     std::string examples_;
     std::function<void()> check_, action_;

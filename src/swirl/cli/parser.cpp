@@ -6,6 +6,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cctype>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -181,11 +183,14 @@ struct OptionAdder {
     }
 };
 
-enum class Options { all, main };
+/// Whether an option belongs to a page of the help.
+using Listed = std::function<bool(const Option&)>;
 
-void add_to(CLI::App& app, const Subcommand& subcommand, Options which) {
+bool is_any(const Option&) { return true; }
+
+void add_to(CLI::App& app, const Subcommand& subcommand, const Listed& is_listed) {
     for (const Option& option : subcommand.options()) {
-        if (which == Options::main && !subcommand.is_main(option)) continue;
+        if (!is_listed(option)) continue;
         CLI::Option* const added = std::visit(OptionAdder{app, option}, option.target);
         if (!option.value_form.empty()) added->type_name(option.value_form);
         if (!option.help_group.empty()) added->group(option.help_group);
@@ -196,19 +201,96 @@ void add_to(CLI::App& app, const Subcommand& subcommand, Options which) {
 
 void set_help_options(CLI::App& app) {
     app.set_help_flag("-h", "Main options");
-    app.set_help_all_flag("--help", "All options, with details");
+    app.set_help_all_flag("--help", "All options and topics");
     app.formatter(std::make_shared<HelpFormat>());
     app.get_formatter()->column_width(std::min(column_of_descriptions, help_width() / 2));
 }
 
+/// A page of the help with these options. CLI11 adds line feeds at its end.
+std::string page(const CLI::App& app, const Subcommand& subcommand, const Listed& is_listed,
+                 const std::string& footer) {
+    CLI::App shown(app.get_description(), app.get_name());
+    set_help_options(shown);
+    add_to(shown, subcommand, is_listed);
+    shown.footer(wrapped(footer, help_width()));
+    std::string text = shown.help();
+    while (text.ends_with("\n\n")) text.pop_back();
+    return text;
+}
+
+/// "run" for "swirl run".
+std::string command_of(const CLI::App& app) {
+    return app.get_name().substr(std::string_view("swirl ").size());
+}
+
 /// The answer to -h.
 std::string short_help(const CLI::App& app, const Subcommand& subcommand) {
-    CLI::App main_only(app.get_description(), app.get_name());
-    set_help_options(main_only);
-    add_to(main_only, subcommand, Options::main);
-    const std::string& examples = subcommand.examples();
-    main_only.footer(fmt::format("All options: {} --help\n\n{}", app.get_name(), examples));
-    return main_only.help();
+    return page(
+        app, subcommand, [&](const Option& option) { return subcommand.is_main(option); },
+        fmt::format("All options: {} --help\n\n{}", app.get_name(), subcommand.examples()));
+}
+
+/// "my-points" for the group "My points".
+std::string topic_of(const std::string& group) {
+    std::string topic = group;
+    for (char& c : topic) c = c == ' ' ? '-' : static_cast<char>(std::tolower(c));
+    return topic;
+}
+
+/// The topics of `swirl help NAME TOPIC`, with the number of options of each.
+std::vector<std::pair<std::string, int>> topics_of(const Subcommand& subcommand) {
+    std::vector<std::pair<std::string, int>> topics;
+    for (const Option& option : subcommand.options()) {
+        if (option.help_group.empty()) continue;
+        const std::string topic = topic_of(option.help_group);
+        const auto same = [&](const auto& known) { return known.first == topic; };
+        auto found = std::find_if(topics.begin(), topics.end(), same);
+        if (found == topics.end()) found = topics.insert(found, {topic, 0});
+        ++found->second;
+    }
+    return topics;
+}
+
+/// The answer to --help.
+std::string long_help(const CLI::App& app, const Subcommand& subcommand) {
+    if (subcommand.has_divided_help()) {
+        std::string topics = "Topics:";
+        for (const auto& [topic, count] : topics_of(subcommand)) {
+            const std::string call = fmt::format("swirl help {} {}", command_of(app), topic);
+            topics += fmt::format("\n  {:<32}{} options", call, count);
+        }
+        return page(
+            app, subcommand, [&](const Option& option) { return subcommand.is_main(option); },
+            topics + "\n\n" + subcommand.examples());
+    }
+    std::string of_run;
+    const auto is_of_run = [](const Option& option) { return option.is_of_run; };
+    if (std::any_of(subcommand.options().begin(), subcommand.options().end(), is_of_run)) {
+        const auto& missing = subcommand.missing_of_run();
+        of_run =
+            fmt::format("All parameters of a run apply{}: swirl help run\n\n",
+                        missing.empty() ? "" : fmt::format(" except {}", fmt::join(missing, ", ")));
+    }
+    return page(
+        app, subcommand, [&](const Option& option) { return !option.is_of_run; },
+        of_run + subcommand.explanation() + subcommand.examples());
+}
+
+/// The answer to `swirl help NAME TOPIC`.
+std::string help_on(const CLI::App& app, const Subcommand& subcommand, const std::string& topic) {
+    const std::string end = subcommand.explanation() + subcommand.examples();
+    if (topic == "all") return page(app, subcommand, is_any, end);
+    std::vector<std::string> topics{"all"};
+    for (const auto& known : topics_of(subcommand)) topics.push_back(known.first);
+    if (std::find(topics.begin(), topics.end(), topic) == topics.end())
+        throw UsageError(fmt::format("'{}' is no topic of `{}`.\nhint: the topics are {}.", topic,
+                                     app.get_name(), fmt::join(topics, ", ")));
+    return page(
+        app, subcommand,
+        [&](const Option& option) {
+            return !option.help_group.empty() && topic_of(option.help_group) == topic;
+        },
+        topic == "output" ? end : subcommand.examples());
 }
 
 void note_given(const CLI::App& app, Subcommand& subcommand) {
@@ -244,25 +326,20 @@ std::vector<std::string> reversed_words(int argc, char** argv) {
 
 }  // namespace
 
-/// The full help. CLI11 adds a line feed to a footer that a function makes.
-static std::string help_of(const CLI::App& app) {
-    std::string text = app.help();
-    while (text.ends_with("\n\n")) text.pop_back();
-    return text;
-}
-
 Call parse(const Command& command, int argc, char** argv) {
     const CommandRow* const row = command_named(command.name());
     CLI::App app(std::string(row->description), std::string("swirl ") + command.name());
     set_help_options(app);
     const auto subcommand = std::make_shared<Subcommand>();
     command.add_options(*subcommand);
-    add_to(app, *subcommand, Options::all);
-    app.footer([&] { return wrapped(subcommand->footer(), help_width()); });
+    add_to(app, *subcommand, is_any);
+    constexpr std::string_view topic = "--help=";  // `swirl help NAME TOPIC`
+    if (argc == 2 && std::string_view(argv[1]).starts_with(topic))
+        return {.text = help_on(app, *subcommand, argv[1] + topic.size())};
     try {
         app.parse(reversed_words(argc, argv));
     } catch (const CLI::CallForAllHelp&) {
-        return {.text = help_of(app)};
+        return {.text = long_help(app, *subcommand)};
     } catch (const CLI::CallForHelp&) {
         return {.text = short_help(app, *subcommand)};
     } catch (const CLI::ParseError& error) {

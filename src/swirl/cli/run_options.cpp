@@ -13,9 +13,13 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
                                                 const std::vector<std::string>& excluded,
                                                 const ParameterTexts& defaults) {
     auto texts = std::make_shared<ParameterTexts>();
+    std::vector<std::string> missing;
     for (const Parameter& p : run_parameters) {
         if (!p.is_settable()) continue;
-        if (std::find(excluded.begin(), excluded.end(), p.name) != excluded.end()) continue;
+        if (std::find(excluded.begin(), excluded.end(), p.name) != excluded.end()) {
+            missing.push_back(option_name(p.name));
+            continue;
+        }
         const std::string name = p.name;
         const auto other = defaults.find(name);
         const std::string default_text = other == defaults.end() ? default_of(p) : other->second;
@@ -25,9 +29,11 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
         const std::string shown_default =
             default_text.empty() ? "" : fmt::format(" [{}]", default_text);
         Option option{option_name(name), take, p.description + shown_default, p.form};
+        option.is_of_run = other == defaults.end();
         if (name == "ramp") option.joined_by = ';';
         subcommand.in(p.group).add_one(std::move(option));
     }
+    subcommand.refer_to_run(std::move(missing));
     return texts;
 }
 

@@ -118,8 +118,8 @@ int main_or_throw(int argc, char** argv) {
     if (word == "--help" || word == "-h" || (word == "help" && argc == 2))
         return print_all(list_of_commands());
     if (word == "help") {
-        std::string all_options = "--help";
-        return run_command(argv[2], {all_options.data()});
+        std::string topic = argc > 3 ? std::string("--help=") + argv[3] : "--help";
+        return run_command(argv[2], {topic.data()});
     }
     return run_command(word, {argv + 2, argv + argc});
 }
