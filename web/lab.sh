@@ -18,7 +18,7 @@ Options:
   --no-browser                    Do not open a browser
   --quiet                         Print no messages
 
-Parameters of a run, such as --discs and --mu, set the initial state of the page. See swirl run --help.
+Parameters of a run, such as --discs and --mu, set the initial state of the page. See swirl help run all.
 
 Examples:
   swirl lab
