@@ -6,7 +6,12 @@ seconds=$1
 shift
 # The first limit sends a signal that names the reason, the second one kills.
 ulimit -S -t "$seconds" && ulimit -H -t $((seconds + 10)) || exit 1
-"$@"
+# A shell starts its background jobs with Ctrl-C ignored, and programs inherit that. Tests send it.
+if env --default-signal=INT,QUIT true 2>/dev/null; then
+    env --default-signal=INT,QUIT "$@"
+else
+    "$@"
+fi
 code=$?
 [ -z "${SWIRL_TEST_TIMES-}" ] || { echo "$*" && times; } >>"$SWIRL_TEST_TIMES/$$"
 if [ $code -gt 128 ] && [ "$(kill -l $code)" = XCPU ]; then

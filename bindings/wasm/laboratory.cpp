@@ -592,7 +592,7 @@ EXPORTED(search_runs) double* search_runs(std::uint32_t count) {
     numbers.resize(search_width * std::size_t{count});
     return numbers.data();
 }
-/// JSON of the runs that the search makes next (N, replica, doublings of the length), and whether
+/// JSON of the runs that the search makes next (N, replica, length in that of the first runs), and whether
 /// N_c is within the tolerance. The rules are made for a page: one run at a time at each number,
 /// and few of them.
 EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, double rounds) {
@@ -602,13 +602,13 @@ EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, 
                         .curves = rotation_rates.size(),
                         .seeds = 1};
     rules.rounds = int(rounds);
-    rules.sign_rounds = 2;
+    rules.sign_length = 8.0;
     rules.at_once = 3;
     CrossingSearch search(rules);
     std::string runs;
     for (const ProposedRun& run : repeat(search))
         runs += fmt::format("{}[{},{},{}]", runs.empty() ? "" : ",", run.discs, run.replica,
-                            run.doublings);
+                            run.length);
     return answer(JsonObject()
                       .add("runs", '[' + runs + ']')
                       .add("within_tolerance", search.is_within_tolerance() ? "true" : "false")

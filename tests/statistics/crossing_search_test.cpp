@@ -13,7 +13,7 @@ using Curve = std::function<double(double)>;
 
 /// A run with the known mean and an error of 0.02/√length; the length of the first runs is 100.
 SearchedRun run_of(const Curve& curve, const ProposedRun& run) {
-    const double length = 100.0 * std::pow(2.0, run.doublings);
+    const double length = 100.0 * double(run.length);
     Estimate e{.mean = curve(double(run.discs)), .error = 0.02 / std::sqrt(length)};
     e.effective_samples = length;
     return {{e}, length};

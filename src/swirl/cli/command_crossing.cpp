@@ -347,9 +347,10 @@ void add_crossing_command(Subcommand& subcommand) {
     subcommand.explain(
         "Every parameter may be a list, as for swirl sweep: each combination is a search of its "
         "own. A run has at least --events events and fifty periods after the warm-up. Near "
-        "the crossing, further runs are made, each twice as long as the ones before, until "
-        "--tolerance is reached, at most ten times; if seeds differ by more than their errors, "
-        "there are twice as many runs instead. Rates count in the direction of the swirl. "
+        "the crossing, further runs are planned from the slope and the errors so far, until "
+        "--tolerance is reached, in at most ten batches; if seeds differ by more than their "
+        "errors, "
+        "there are more runs instead of longer ones. Rates count in the direction of the swirl. "
         "A search that was stopped prints its points, and continues with --out DIR, the folder of "
         "a sweep. Rotation rates (--rate): mean_by_event, mean_by_time, "
         "rigid_by_event and rigid_by_time; --verbose, JSON and CSV have N_c for all four. Use a "

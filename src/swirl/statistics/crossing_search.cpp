@@ -4,6 +4,19 @@
 #include <cmath>
 
 namespace swirl {
+namespace {
+
+/// More than the plan needs, because its variance is an estimate. A batch that just misses the
+/// tolerance would cost another one.
+constexpr double margin = 1.05;
+
+/// The plan of a short group is uncertain. Only a last batch, which makes a group at most so many
+/// times as long, is as long as planned; the others reach this share of the plan.
+constexpr double last_step = 1.8, caution = 0.6;
+
+double squared(double x) { return x * x; }
+
+}  // namespace
 
 std::vector<ProposedRun> CrossingSearch::next() {
     if (groups_.empty())
@@ -13,17 +26,22 @@ std::vector<ProposedRun> CrossingSearch::next() {
     const Crossing found = crossing();
     if (const Numbers beyond = beyond_the_scan(found); !beyond.empty())
         return runs_at("coarse scan", beyond);
-    const Numbers more = numbers_for_more_runs(found);
-    for (const std::int64_t n : more) begin_round(groups_[n]);
+    Numbers more;
+    for (const auto& [n, length] : planned_lengths(found)) {
+        begin_round(groups_[n], length);
+        more.insert(n);
+    }
     return runs_at("more runs", more);
 }
 
 void CrossingSearch::take(const ProposedRun& run, const SearchedRun* result) {
     Group& group = groups_[run.discs];
-    if (result)
-        group.finished.push_back(*result);
-    else
+    if (!result) {
         ++group.failed;
+        return;
+    }
+    group.finished.push_back(*result);
+    group.length += run.length;
 }
 
 void CrossingSearch::extend(std::int64_t from, std::int64_t to, std::int64_t max_runs) {
@@ -119,26 +137,99 @@ CrossingSearch::Numbers CrossingSearch::beyond_the_scan(const Crossing& crossing
     return numbers;
 }
 
-CrossingSearch::Numbers CrossingSearch::numbers_for_more_runs(const Crossing& crossing) const {
-    Numbers numbers;
+/// The lengths that the groups need that get more runs.
+std::map<std::int64_t, double> CrossingSearch::planned_lengths(const Crossing& crossing) const {
+    std::map<std::int64_t, double> lengths;
+    add_signs(crossing, lengths);
+    add_bracket(crossing, lengths);
+    return lengths;
+}
+
+/// Step 3, numbers outside of the brackets.
+void CrossingSearch::add_signs(const Crossing& crossing,
+                               std::map<std::int64_t, double>& lengths) const {
     for (const double discs : crossing.undetermined) {
         const bool in_bracket =
             std::any_of(crossing.changes.begin(), crossing.changes.end(),
                         [&](const SignChange& c) { return c.before < discs && discs < c.after; });
         const auto n = std::int64_t(discs);
-        if (!in_bracket && has_rounds_left(n, rules_.sign_rounds)) numbers.insert(n);
+        const Group& group = groups_.find(n)->second;
+        const double most = rules_.sign_length * double(rules_.seeds);
+        if (in_bracket || !has_rounds_left(group) || double(group.length) >= most) continue;
+        const Estimate e = combined(group, rules_.rate).estimate;
+        // At least twice as long, since a mean may be large by chance.
+        const double factor = std::max(2.0, squared(planned_sign * e.error / e.mean));
+        lengths[n] = double(group.length) * std::min(factor, growth);
     }
-    const SignChange* const change = crossing.last();
-    if (!change || !change->resolved() || is_within_tolerance(crossing)) return numbers;
-    for (const std::int64_t n : decisive_numbers(crossing))
-        if (has_rounds_left(n, rules_.rounds)) numbers.insert(n);
-    return numbers;
 }
 
-bool CrossingSearch::has_rounds_left(std::int64_t number, int max_rounds) const {
-    const Group& group = groups_.find(number)->second;
-    return group.rounds < std::min(max_rounds, rules_.rounds) &&
-           group.attempted() < rules_.max_runs;
+/// Step 3, the bracket of N_c.
+void CrossingSearch::add_bracket(const Crossing& crossing,
+                                 std::map<std::int64_t, double>& lengths) const {
+    const SignChange* const change = crossing.last();
+    if (!change || !change->resolved() || is_within_tolerance(crossing)) return;
+    const Numbers bracket = decisive_numbers(crossing);
+    const Line line = line_through(bracket);
+    const double below = std::clamp(std::floor(line.zero), change->before, change->after - 1.0);
+    const double share = std::clamp(line.zero - below, 0.0, 1.0);
+    const double unit = line.variance / squared(line.slope);  // the length that gives the error 1
+    const auto length_of = [&](double n) {
+        const auto found = groups_.find(std::int64_t(n));
+        return found == groups_.end() ? 0.0 : double(found->second.length);
+    };
+    // The error that was found may exceed the planned one.
+    const double made = length_of(below) + length_of(below + 1.0);
+    const double total = margin * std::max(unit / squared(rules_.tolerance),
+                                           made * squared(crossing.error / rules_.tolerance));
+    for (const std::int64_t number : bracket) {
+        const double n = double(number), distance = std::fabs(n - line.zero);
+        double wanted = n == below ? (1.0 - share) * total : n == below + 1.0 ? share * total : 0.0;
+        if (distance > 0.5) wanted = std::max(wanted, unit * squared(planned_sign / distance));
+        wanted = std::min(wanted, total);
+        if (wanted > length_of(n) && has_rounds_left(groups_.find(number)->second))
+            lengths[number] = wanted;
+    }
+}
+
+/// The error of the mean without Student's factor. If the replicates disagree, only their scatter is
+/// known to contain everything.
+double CrossingSearch::own_error(const Group& group) const {
+    const Ensemble all = combined(group, rules_.rate);
+    return all.disagree || !(all.within > 0.0) ? all.estimate.error : all.within;
+}
+
+/// The line of the plan, by weighted least squares. Numbers without an error have none.
+CrossingSearch::Line CrossingSearch::line_through(const Numbers& numbers) const {
+    double weight = 0.0, n = 0.0, mean = 0.0, squares = 0.0, length = 0.0;
+    struct Point {
+        double n, mean, weight;
+    };
+    std::vector<Point> points;
+    for (const std::int64_t number : numbers) {
+        const Group& group = groups_.find(number)->second;
+        const Estimate e = combined(group, rules_.rate).estimate;
+        const double T = double(group.length);
+        if (!(e.error > 0.0) || std::isinf(e.error)) continue;
+        points.push_back({double(number), e.mean, 1.0 / squared(e.error)});
+        weight += points.back().weight;
+        n += points.back().weight * double(number);
+        mean += points.back().weight * e.mean;
+        squares += T * T * squared(own_error(group));
+        length += T;
+    }
+    n /= weight;
+    mean /= weight;
+    double spread = 0.0, common = 0.0;
+    for (const Point& p : points) {
+        spread += p.weight * squared(p.n - n);
+        common += p.weight * (p.n - n) * (p.mean - mean);
+    }
+    const double slope = common / spread;
+    return {.slope = slope, .zero = n - mean / slope, .variance = squares / length};
+}
+
+bool CrossingSearch::has_rounds_left(const Group& group) const {
+    return group.rounds < rules_.rounds && group.attempted() < rules_.max_runs;
 }
 
 bool CrossingSearch::is_within_tolerance(const Crossing& crossing) const {
@@ -146,10 +237,19 @@ bool CrossingSearch::is_within_tolerance(const Crossing& crossing) const {
     return crossing.verdict != Crossing::Verdict::undecided;
 }
 
-void CrossingSearch::begin_round(Group& group) const {
+/// Plans a batch after which the group has this length, if that is at most `growth` times as long.
+void CrossingSearch::begin_round(Group& group, double length) const {
     ++group.rounds;
     group.scatters = group.scatters || !rules_.longer_runs || combined(group, rules_.rate).disagree;
-    if (!group.scatters) ++group.doublings;
+    const double factor = length / double(group.length);
+    const double missing = (factor > last_step ? std::min(caution * factor, growth) : factor) - 1.0;
+    const auto at_least_one = [](double x) { return std::int64_t(std::ceil(std::max(x, 1.0))); };
+    if (group.scatters) {
+        group.next_runs = at_least_one(missing * double(group.finished.size()));
+        return;
+    }
+    group.next_runs = rules_.seeds;
+    group.next_length = at_least_one(missing * double(group.length) / double(rules_.seeds));
 }
 
 std::vector<ProposedRun> CrossingSearch::runs_at(const char* stage, const Numbers& numbers) {
@@ -157,10 +257,10 @@ std::vector<ProposedRun> CrossingSearch::runs_at(const char* stage, const Number
     std::vector<ProposedRun> runs;
     for (auto n = numbers.rbegin(); n != numbers.rend(); ++n) {
         const Group& group = groups_[*n];
-        const std::int64_t before = group.attempted(),
-                           count = group.scatters ? before : rules_.seeds;
+        const std::int64_t before = group.attempted();
+        const std::int64_t count = before == 0 ? rules_.seeds : group.next_runs;
         for (std::int64_t k = before; k < std::min(before + count, rules_.max_runs); ++k)
-            runs.push_back({*n, k, group.doublings});
+            runs.push_back({.discs = *n, .replica = k, .length = group.next_length});
     }
     return runs;
 }

@@ -7,20 +7,34 @@
 //    them, and finally covers the range.
 // 2. Narrowing: runs at the middle of each bracket, until every number in it has runs. This is done
 //    for all curves.
-// 3. Signs: numbers outside every bracket with an undetermined sign get more runs until the sign is
-//    certain, at most `sign_rounds` times.
-// 4. Tolerance: the numbers in the bracket of N_c get more runs until the error of N_c is below the
-//    tolerance, at most `rounds` times. All numbers of a bracket get more runs together. If each
-//    got runs until its sign is certain, it would stop where chance moves it away from zero, and
-//    the interval of N_c would be too narrow.
+// 3. Plan: the numbers in the bracket of N_c get the runs that the tolerance needs, and no more
+//    (below), in at most `rounds` batches. A number outside of every bracket whose sign is not
+//    certain gets runs until it is, at most `sign_length` times its first ones.
 //
-// More runs are `seeds` runs twice as long as the ones before. If the replicates at a number scatter
-// more than their errors explain, longer runs do not help, for example because each seed draws
-// other sizes. From then on, more runs there are as many as before, of the same length. Without
-// `longer_runs`, this holds from the start.
+// The plan. The numbers of the bracket give a line by weighted least squares, with the slope b and
+// the zero x_0, and the variance v of a mean over one unit of length. Let N ≤ x_0 < N + 1 and
+// f = x_0 − N. N_c is the zero of the line between the means of N and N + 1, so that runs of the
+// lengths T_N and T_{N+1} determine it with the variance
 //
-// After each step the search narrows again. One curve (`rate`) controls steps 3 and 4; the others
-// are evaluated from the same runs. The runs at a number near N_c depend on the runs made there,
+//     σ² = v [(1 − f)²/T_N + f²/T_{N+1}] / b².
+//
+// For a given sum T of both lengths it is smallest for T_N = (1 − f) T and T_{N+1} = f T. It is then
+// v/(T b²), and the square of the tolerance gives T. All other numbers of the bracket, at the distance
+// d from x_0, are there because their sign is uncertain. Their mean is expected to be b d, so they
+// need the length v (planned_sign/(b d))², or at most T.
+//
+// What the plan knows is uncertain itself. So a batch makes a group at most `growth` times as long,
+// and the next one is planned from all runs. Lengths follow from the line, not from the mean of the
+// group alone. If each group got runs until its own sign is certain, it would stop where chance moves
+// it away from zero, and the interval of N_c would be too narrow.
+//
+// A batch adds `seeds` runs at a number, of equal length. If the replicates at a number scatter more
+// than their errors explain, longer runs do not help, for example because each seed draws other
+// sizes. From then on, a batch there has more runs of the same length. Without `longer_runs`, this
+// holds from the start.
+//
+// After each step the search narrows again. One curve (`rate`) controls step 3; the others are
+// evaluated from the same runs. The runs at a number near N_c depend on the runs made there,
 // not on the range. Therefore two ranges find the same N_c if they contain its bracket with certain
 // signs. If the bracket ends at the end of the range, with an undetermined sign, the replicates
 // differ, and N_c agrees within its error.
@@ -43,6 +57,11 @@
 
 namespace swirl {
 
+/// A batch makes a group at most so many times as long. The plan is then made again.
+inline constexpr double growth = 4.0;
+/// Errors from zero for which the plan makes a sign certain: three would succeed in half of all cases.
+inline constexpr double planned_sign = 4.0;
+
 /// Default maximum of runs at one number of discs.
 inline constexpr std::int64_t max_search_runs = 1000;
 
@@ -52,8 +71,9 @@ struct CrossingRules {
     std::size_t curves = 1, rate = 0;  // number of curves, and the one that controls the search
     std::int64_t seeds = 3;            // runs of one step at one number of discs
     std::int64_t max_runs = max_search_runs;  // most runs at one number of discs
-    int rounds = 10;                          // maximum of step 4 at one number of discs
-    int sign_rounds = 4;                      // maximum of step 3
+    int rounds = 10;                          // most batches of step 3 at one number of discs
+    /// Most runs outside of the brackets, relative to the first ones.
+    double sign_length = 32.0;
     bool longer_runs = true;
     std::set<std::int64_t> start = {};  // replaces the numbers of the coarse scan
     std::int64_t coarse_numbers = 8;
@@ -62,10 +82,9 @@ struct CrossingRules {
     bool every_change = true;  // otherwise only the bracket of N_c is narrowed
 };
 
-/// A run that the search proposes: `doublings` times twice as long as the first ones.
+/// A run that the search proposes. Its length is a multiple of that of the first runs.
 struct ProposedRun {
-    std::int64_t discs, replica;
-    int doublings;
+    std::int64_t discs, replica, length;
 };
 
 /// The result of a run: its mean by each curve, and its length (in any unit).
@@ -80,8 +99,11 @@ class CrossingSearch {
     struct Group {
         std::vector<SearchedRun> finished = {};
         std::int64_t failed = 0;
-        int rounds = 0;         // rounds of more runs
-        int doublings = 0;      // doublings of the length in these rounds
+        /// Length of all finished runs, in that of a first run.
+        std::int64_t length = 0;
+        std::int64_t next_runs = 0;  // runs of the next batch, and the length of each
+        std::int64_t next_length = 1;
+        int rounds = 0;         // batches after the first runs
         bool scatters = false;  // the replicates disagree, so more runs are no longer
         std::int64_t attempted() const { return std::int64_t(finished.size()) + failed; }
     };
@@ -114,13 +136,22 @@ class CrossingSearch {
     Numbers decisive_numbers(const Crossing& crossing) const;
 
   private:
+    /// ϖ/Ω near N_c, and the variance of a mean over the length of one first run.
+    struct Line {
+        double slope, zero, variance;
+    };
+
     Numbers coarse_numbers() const;
     Numbers missing_in_brackets() const;
     Numbers beyond_the_scan(const Crossing& crossing) const;
-    Numbers numbers_for_more_runs(const Crossing& crossing) const;
-    bool has_rounds_left(std::int64_t number, int max_rounds) const;
+    std::map<std::int64_t, double> planned_lengths(const Crossing& crossing) const;
+    void add_signs(const Crossing& crossing, std::map<std::int64_t, double>& lengths) const;
+    void add_bracket(const Crossing& crossing, std::map<std::int64_t, double>& lengths) const;
+    bool has_rounds_left(const Group& group) const;
     bool is_within_tolerance(const Crossing& crossing) const;
-    void begin_round(Group& group) const;
+    double own_error(const Group& group) const;
+    Line line_through(const Numbers& numbers) const;
+    void begin_round(Group& group, double length) const;
     std::vector<ProposedRun> runs_at(const char* stage, const Numbers& numbers);
 
     CrossingRules rules_;

@@ -60,7 +60,7 @@ class Searcher {
         try {
             RunConfig config = with_discs(settings_.config, task.discs);
             config.periods.reset();
-            config.events = settings_.config.events << task.doublings;
+            config.events = settings_.config.events * task.length;
             config.seed = search_seed(config, task.replica);
             SearchRun run = long_enough_run(config, task);
             report_progress(run.events);
@@ -89,7 +89,7 @@ class Searcher {
     SearchRun long_enough_run(const RunConfig& by_events, const ProposedRun& task) {
         RunConfig by_periods = by_events;
         by_periods.periods =
-            by_events.warmup.value_or(default_warmup) + (settings_.min_periods << task.doublings);
+            by_events.warmup.value_or(default_warmup) + settings_.min_periods * task.length;
         const auto has_enough_events = [&](std::uint64_t events) {
             return events >= static_cast<std::uint64_t>(by_events.events);
         };

@@ -90,8 +90,8 @@ std::string stop_reason(const CrossingSettings& settings, const CrossingResult& 
             "errors, and the number of runs is limited.",
             settings.tolerance);
     return fmt::format(
-        " The search stopped before --tolerance {} was reached, after {} rounds of runs twice as "
-        "long as the ones before. Use more --events.",
+        " The search stopped before --tolerance {} was reached, after {} batches of "
+        "longer runs. Use more --events.",
         settings.tolerance, settings.rounds);
 }
 

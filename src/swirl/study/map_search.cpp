@@ -331,7 +331,8 @@ class MapSearch {
                             .tolerance = target_.tolerance,
                             .seeds = std::int64_t(first()),
                             .max_runs = std::int64_t(max_runs_)};
-        rules.rounds = rules.sign_rounds = std::numeric_limits<int>::max();  // only max_runs limits
+        rules.rounds = std::numeric_limits<int>::max();  // only max_runs limits
+        rules.sign_length = std::numeric_limits<double>::infinity();
         rules.longer_runs = rules.every_change = false;
         rules.coarse_numbers = coarse_numbers;
         if (neighbours.empty()) return rules;

@@ -53,8 +53,8 @@ export async function searchCrossing(
                 withinTolerance,
             };
         const step = await Promise.all(
-            runs.map(async ([discs, replicate, doublings]) => {
-                const periods = settings.periods * 2 ** doublings;
+            runs.map(async ([discs, replicate, length]) => {
+                const periods = settings.periods * length;
                 const {rotation} = await tools.run(discs, settings.seed + replicate, periods);
                 progress(++count);
                 return {discs, periods, rotation};
