@@ -1,6 +1,6 @@
 // A contact law of your own: a restitution e = 1/(1 + a u) that falls with the impact speed u, as
-// for real materials. A disc that bounces between two walls at rest then follows a closed form: each
-// collision adds a to its inverse speed, so after n collisions the speed is 1/(1/u_0 + n a).
+// for real materials. A disc that bounces between two walls at rest then follows a closed form:
+// each collision adds a to its inverse speed, so after n collisions the speed is 1/(1/u_0 + n a).
 #include <cmath>
 #include <cstdio>
 

@@ -26,8 +26,8 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
 /// UsageError.
 ContainerPath polygon(const Numbers& vertices, const std::optional<Numbers>& times, double period);
 
-/// Throws UsageError if numbers of the discs are out of range, or if discs overlap each other or the
-/// wall, with the container at `centre` (run/initial_parameter.hpp).
+/// Throws UsageError if numbers of the discs are out of range, or if discs overlap each other or
+/// the wall, with the container at `centre` (run/initial_parameter.hpp).
 void require_valid_discs(const InitialState& scene, const Vec2& centre, double tolerance);
 
 }  // namespace swirl::python

@@ -35,8 +35,8 @@ PyObject *failure_type = nullptr, *file_error_type = nullptr;
 PYBIND11_MODULE(_engine, module) {
     namespace python = swirl::python;
     using python::failure_type, python::file_error_type;
-    // The first lines of a docstring are the signature, of which tests/python/stubs_test.py makes the
-    // stub file.
+    // The first lines of a docstring are the signature, of which tests/python/stubs_test.py makes
+    // the stub file.
     pybind11::options options;
     options.disable_function_signatures();
     failure_type = PyErr_NewExceptionWithDoc(

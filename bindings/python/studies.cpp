@@ -91,8 +91,8 @@ std::vector<std::map<std::string, std::string>> points_of(const SweepPlan& plan)
     return points;
 }
 
-/// The files of the results of each row, and of the messages of failed runs; none for a row that the
-/// sweep does not have.
+/// The files of the results of each row, and of the messages of failed runs; none for a row that
+/// the sweep does not have.
 std::vector<std::vector<std::pair<std::string, std::string>>> result_files(
     const std::string& folder, const std::vector<py::dict>& rows, std::int64_t replicas) {
     const SweepPlan plan = read_plan(folder);

@@ -4,8 +4,9 @@
 //
 // Texts go through one buffer. The page writes a text there before a call, and reads the answer
 // there after it. A function that answers with a text returns its length. If the command line would
-// end with an error message, the page's `reject` gets it as JSON: its text in English, and the codes
-// and values of its sentences. That function throws in JavaScript, so the stack of this module is lost: after it the page creates a new instance.
+// end with an error message, the page's `reject` gets it as JSON: its text in English, and the
+// codes and values of its sentences. That function throws in JavaScript, so the stack of this
+// module is lost: after it the page creates a new instance.
 //
 // Only this folder depends on the page. The engine, measurements and parameters are the same files
 // as in all other programs.
@@ -136,8 +137,8 @@ RunConfig with_path_of(const RunConfig& a, RunConfig b) {
 /// How the discs can continue with other values.
 enum class Change { needs_new_simulation, at_once, at_the_start_of_a_period };
 
-/// Parameters that may change (Changes), and the number of discs of one size, do so at once; the path
-/// at the start of a period. Any other difference needs a new simulation.
+/// Parameters that may change (Changes), and the number of discs of one size, do so at once; the
+/// path at the start of a period. Any other difference needs a new simulation.
 Change change_between(const RunConfig& a, const RunConfig& b) {
     constexpr std::int64_t most = 400;  // more discs are not added one by one
     RunConfig like = with_path_of(a, b);
@@ -592,9 +593,9 @@ EXPORTED(search_runs) double* search_runs(std::uint32_t count) {
     numbers.resize(search_width * std::size_t{count});
     return numbers.data();
 }
-/// JSON of the runs that the search makes next (N, replica, length in that of the first runs), and whether
-/// N_c is within the tolerance. The rules are made for a page: one run at a time at each number,
-/// and few of them.
+/// JSON of the runs that the search makes next (N, replica, length in that of the first runs), and
+/// whether N_c is within the tolerance. The rules are made for a page: one run at a time at each
+/// number, and few of them.
 EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, double rounds) {
     CrossingRules rules{.from = std::int64_t(from),
                         .to = std::int64_t(to),

@@ -1,6 +1,6 @@
-// The event loops of the browser page, in place of src/swirl/engine/simd/event_loop_baseline.cpp. Each is compiled for
-// one size and once: run() calls step() instead of containing it. The page loads faster, and every result is the same,
-// because no search and no size changes a trajectory.
+// The event loops of the browser page, in place of src/swirl/engine/simd/event_loop_baseline.cpp.
+// Each is compiled for one size and once: run() calls step() instead of containing it. The page
+// loads faster, and every result is the same, because no search and no size changes a trajectory.
 #include "swirl/engine/simd/event_loops.hpp"
 #include "swirl/math/cpu_width.hpp"
 

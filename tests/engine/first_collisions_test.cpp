@@ -1,6 +1,7 @@
-// The first collisions from an initial state that is given as numbers, against a stored list of partners and
-// times. The other tests compare implementations with each other and final states with hashes. This one does
-// not depend on placement and random numbers, and shows the first collision that differs.
+// The first collisions from an initial state that is given as numbers, against a stored list of
+// partners and times. The other tests compare implementations with each other and final states with
+// hashes. This one does not depend on placement and random numbers, and shows the first collision
+// that differs.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -37,8 +38,8 @@ InitialState lattice() {
     return scene;
 }
 
-/// One line per collision: its time, and the discs (j = i at the wall). They all happen in the first
-/// period. 17 digits distinguish all doubles.
+/// One line per collision: its time, and the discs (j = i at the wall). They all happen in the
+/// first period. 17 digits distinguish all doubles.
 template <class Engine>
 std::vector<std::string> first_collisions(Engine engine) {
     std::vector<std::string> lines;
@@ -52,8 +53,8 @@ std::vector<std::string> first_collisions(Engine engine) {
     return lines;
 }
 
-/// The lines of first_collisions() for Reference. A separate program of 60 lines, which advances all discs
-/// at every event, gave the same partners and times equal to 4e-12.
+/// The lines of first_collisions() for Reference. A separate program of 60 lines, which advances
+/// all discs at every event, gave the same partners and times equal to 4e-12.
 std::vector<std::string> stored() {
     std::ifstream file(SWIRL_SOURCE_DIR "/tests/engine/first_collisions.csv");
     std::vector<std::string> lines;

@@ -9,8 +9,8 @@ void expect_golden(Width width) {
     if (!has_width(width)) GTEST_SKIP() << "this processor does not support this width";
     for (const GoldenRun& golden : golden_runs()) {
         Simulation simulation(golden.scene, {}, {0, width});
-        // Under the sanitizers the long ones only begin. Other compilers and levels have these hashes
-        // in ./check --slow.
+        // Under the sanitizers the long ones only begin. Other compilers and levels have these
+        // hashes in ./check --slow.
         const bool complete = !sanitized || golden.events <= 5000;
         simulation.run(complete ? golden.events : 3000);
         if (!complete) continue;

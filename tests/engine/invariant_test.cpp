@@ -31,8 +31,8 @@ void run(const InitialState& initial, const Progress& progress = {}) {
         if (has_width(width)) Simulation(initial, progress, {0, width}).run(1000);
 }
 
-/// Runs a scene that the constructor would reject. A caller that has stopped the construction gets no
-/// validation; this one has stopped it only for the first question.
+/// Runs a scene that the constructor would reject. A caller that has stopped the construction gets
+/// no validation; this one has stopped it only for the first question.
 void run_unvalidated(const InitialState& initial) {
     for (const Width width : {Width::baseline, Width::avx2, Width::avx512}) {
         if (!has_width(width)) continue;

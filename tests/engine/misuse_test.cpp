@@ -1,5 +1,5 @@
-// Wrong uses of the library: each ends with a sentence, works as documented, or is a precondition of
-// docs/reference/cpp.md. The sanitizers run this test, too.
+// Wrong uses of the library: each ends with a sentence, works as documented, or is a precondition
+// of docs/reference/cpp.md. The sanitizers run this test, too.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -38,9 +38,10 @@ inline void expect_same_sphere(const Disc& a, const Disc& b) {
     ASSERT_TRUE(same_bits(a.last_collision, b.last_collision));
 }
 
-/// Compares every event's time, partners and impulse of a reference with those of other simulations,
-/// and all discs at the end. Under the sanitizers it compares a sixteenth of the events, but at
-/// least 500 of them: the plain build compares all, and Overlap.Slow_Search runs millions under the sanitizers.
+/// Compares every event's time, partners and impulse of a reference with those of other
+/// simulations, and all discs at the end. Under the sanitizers it compares a sixteenth of the
+/// events, but at least 500 of them: the plain build compares all, and Overlap.Slow_Search runs
+/// millions under the sanitizers.
 template <class Slow, class Engines>
 void expect_same_events(const InitialState& scene, Slow&& reference, Engines&& engines,
                         int events) {

@@ -18,8 +18,8 @@ inline constexpr bool sanitized = true;
 #else
 inline constexpr bool sanitized = false;
 #endif
-/// An eighth of a number of repetitions under the sanitizers, which look for wrong accesses and broken
-/// invariants, not for rare events; Overlap.Slow_Search runs millions of events under them.
+/// An eighth of a number of repetitions under the sanitizers, which look for wrong accesses and
+/// broken invariants, not for rare events; Overlap.Slow_Search runs millions of events under them.
 constexpr int fewer_if_sanitized(int repetitions) {
     return sanitized ? (repetitions + 7) / 8 : repetitions;
 }

@@ -88,6 +88,18 @@ class Format(unittest.TestCase):
         )
 
 
+class Width(unittest.TestCase):
+    def test_no_line_of_cpp_is_wider_than_the_limit(self):
+        wide = []
+        for file in sorted(files(".hpp", ".cpp")):
+            with open(file, encoding="utf-8") as opened:
+                for k, line in enumerate(opened, 1):
+                    # clang-format breaks code, but neither comments nor texts.
+                    if len(line.rstrip("\n")) > WIDTH and '"' not in line:
+                        wide.append(f"{os.path.relpath(file, SOURCE)}:{k}")
+        self.assertEqual(wide, [])
+
+
 class Python(unittest.TestCase):
     def test_no_line_is_wider_than_the_limit(self):
         names = sorted(files(".py"))

@@ -103,7 +103,8 @@ TEST(Fields, OfOneCollisionAddUpToItsTransfer) {
         constexpr double error = 1e-4;  // (cell width / kernel width)³
         EXPECT_NEAR(sum("collisional_xx"), -0.8 * 1.1, error);
         EXPECT_NEAR(sum("collisional_yy"), 1.7 * 0.9, error);
-        // The first index is that of the impulse (0.8, −1.7), the second that of the line (1.1, 0.9).
+        // The first index is that of the impulse (0.8, −1.7), the second that of the line (1.1,
+        // 0.9).
         EXPECT_NEAR(sum("collisional_xy"), -0.8 * 0.9, error);
         EXPECT_NEAR(sum("collisional_yx"), 1.7 * 1.1, error);
         EXPECT_NEAR(sum("torque"), 1.7 * 1.1 + 0.8 * 0.9, error);

@@ -116,8 +116,8 @@ TEST(Observation, UsesEveryFrameIfThereAreFewerThan511) {
     }
 }
 
-// The criteria are times. At a tenth of the rate for which they were made, they would report another
-// number without a word.
+// The criteria are times. At a tenth of the rate for which they were made, they would report
+// another number without a word.
 TEST(Observation, ValuesAreMissingBelowTheFrameRateThatTheyNeed) {
     const Snapshot s = random_discs(12, 7);
     const auto known = [&](double rate) {

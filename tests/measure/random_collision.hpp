@@ -11,8 +11,8 @@ struct RandomCollision {
     Event event;
 };
 
-/// Applies the collision law to two of three random discs, or to one of them and the wall. For every
-/// third seed disc 0 cannot spin, for every sixth none can.
+/// Applies the collision law to two of three random discs, or to one of them and the wall. For
+/// every third seed disc 0 cannot spin, for every sixth none can.
 inline RandomCollision collide_at_random(std::uint64_t seed, bool wall, const Surface& surface) {
     Noise noise(seed);
     Snapshot s = empty_container(0.5 + 0.5 * noise());

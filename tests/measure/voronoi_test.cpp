@@ -188,8 +188,9 @@ TEST(LocalPacking, IsPiOverRootTwelveForTheTriangularLattice) {
 }
 
 TEST(LocalStructure, ResidentValuesAreThoseAtTheTimeOfTheSample) {
-    // The outer ring of a lattice is at the wall, and only the first sample has cells. Disc 0 begins
-    // outside its place, so that its values differ, and leaves before its residence is a long one.
+    // The outer ring of a lattice is at the wall, and only the first sample has cells. Disc 0
+    // begins outside its place, so that its values differ, and leaves before its residence is a
+    // long one.
     HexaticOrder order;
     LocalPacking packing;
     LongResidences residences;

@@ -106,8 +106,8 @@ TEST(FewBlocks, Slow_TwoErrorsOfAShortRunHoldTheMeanOfManyRuns) {
         runs.count();
         fmt::print("| {} | {} | {} | {:.1f} % |\n", runs.discs, runs.periods, runs.seeds,
                    100.0 * runs.share());
-        // The lower limit is three standard deviations of a count with 95.4 % below 93 %: block sums
-        // of few periods are correlated, which few blocks cannot show.
+        // The lower limit is three standard deviations of a count with 95.4 % below 93 %: block
+        // sums of few periods are correlated, which few blocks cannot show.
         const double scatter = std::sqrt(0.954 * 0.046 / double(runs.seeds));
         EXPECT_GT(runs.share(), 0.93 - 3.0 * scatter) << runs.discs << " " << runs.periods;
         covered += runs.covered;

@@ -35,8 +35,8 @@ struct BalanceSums {
     int intervals = 0;
 };
 
-// A disc that disappears from the point without a flight is the whole scale of mass, so the relative
-// residual is 1, whatever the mass and the width.
+// A disc that disappears from the point without a flight is the whole scale of mass, so the
+// relative residual is 1, whatever the mass and the width.
 TEST(FieldBalance, RelativeResidualIsOneForADiscThatDisappears) {
     for (const double width : {0.5, 3.0}) {
         Snapshot s = empty_container();

@@ -1,6 +1,6 @@
 // Every number of a recording at the minimum rate of its registry row is that of the run: with
-// velocities in the frames, and from positions alone. Both see the same trajectory, so the difference
-// of their values has a small error, which is that between the seeds.
+// velocities in the frames, and from positions alone. Both see the same trajectory, so the
+// difference of their values has a small error, which is that between the seeds.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

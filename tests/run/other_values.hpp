@@ -1,5 +1,5 @@
-// For tests of all parameters: values other than the defaults, and what a parameter needs to have an
-// effect. Both follow from the table; only parameters that are not numbers are listed here.
+// For tests of all parameters: values other than the defaults, and what a parameter needs to have
+// an effect. Both follow from the table; only parameters that are not numbers are listed here.
 #pragma once
 
 #include <fmt/format.h>

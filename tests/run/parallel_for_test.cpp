@@ -38,8 +38,8 @@ TEST(ParallelFor, AcceptsZeroTasks) {
 }
 
 TEST(ParallelFor, RethrowsAnExceptionAndStartsNoFurtherTask) {
-    // One thread begins the tasks in their order. The tasks of the second call are so many that it ends
-    // only if the exception of one thread stops both.
+    // One thread begins the tasks in their order. The tasks of the second call are so many that it
+    // ends only if the exception of one thread stops both.
     std::atomic<int> begun = 0;
     const auto work = [&](std::size_t k) {
         ++begun;

@@ -235,8 +235,8 @@ TEST(RunParameters, PresetsDifferInAmplitudeOrFrictionOnly) {
     EXPECT_DOUBLE_EQ(half.gravity, 4.0 * smooth.gravity);
     expect_rejected({{"preset", "experiment-ruogh"}}, "did you mean 'experiment-rough'");
 }
-// Lengths of a preset are multiples of r, and its contact duration is a share of the period. Gravity
-// in another unit of length or time is unknown.
+// Lengths of a preset are multiples of r, and its contact duration is a share of the period.
+// Gravity in another unit of length or time is unknown.
 TEST(RunParameters, APresetFollowsTheUnitsOfACallOrIsRejected) {
     for (const char* name : {"experiment", "experiment-rough", "experiment-half"}) {
         const RunConfig preset = resolve({{"preset", name}});

@@ -20,8 +20,8 @@ RunConfig small(std::int64_t discs, std::int64_t periods) {
     return config;
 }
 
-// A checkpoint of another law is rejected. So a law has another number exactly when the golden hashes
-// of its body change (golden_runs.hpp), for a reason that CHANGELOG.md gives.
+// A checkpoint of another law is rejected. So a law has another number exactly when the golden
+// hashes of its body change (golden_runs.hpp), for a reason that CHANGELOG.md gives.
 TEST(LawOf, EachBodyHasTheNumberOfItsGoldenHashes) {
     EXPECT_EQ(law_of(Shape::disc), 1);
     EXPECT_EQ(law_of(Shape::sphere), 2);

@@ -81,10 +81,11 @@ void expect_invariants(const RunConfig& config, int blocks, int events_per_block
     EXPECT_EQ(time_went_back, 0);
     EXPECT_LT(largest_overlap, 1e-12);
     EXPECT_GT(largest_overlap, -1e-12);  // overlaps were recorded
-    // Impulses reach 10, so an event rounds an energy of order 100 and the budget is off by 20 times
-    // 2⁻⁵³: measured with 5 discs, and 1 with 48. The first term is 5 standard deviations of their
-    // random sum. The second allows a bias of one fiftieth of 2⁻⁵³ per event; none was found above
-    // the noise, 0.015. A constant that is rounded in energy_change() adds 0.5 to 3 with 5 discs.
+    // Impulses reach 10, so an event rounds an energy of order 100 and the budget is off by 20
+    // times 2⁻⁵³: measured with 5 discs, and 1 with 48. The first term is 5 standard deviations of
+    // their random sum. The second allows a bias of one fiftieth of 2⁻⁵³ per event; none was found
+    // above the noise, 0.015. A constant that is rounded in energy_change() adds 0.5 to 3 with 5
+    // discs.
     const double events = static_cast<double>(blocks) * events_per_block;
     const double allowed = 0x1p-53 * (100.0 * std::sqrt(events) + 0.02 * events);
     EXPECT_LT(largest.energy, allowed);

@@ -69,7 +69,8 @@ const std::vector<Planted> plants{
     {"mixture, 5 visits", [](double share) { return int(5.0 * share) % 2 == 0 ? 1.0 : 0.0; }},
     {"mixture, 16 visits", [](double share) { return int(16.0 * share) % 2 == 0 ? 1.0 : 0.0; }}};
 
-/// The number of series with a verdict of a change if `size` standard errors of the mean are planted.
+/// The number of series with a verdict of a change if `size` standard errors of the mean are
+/// planted.
 int count_found(const std::vector<Series>& all, const Planted& plant, double size) {
     int count = 0;
     for (Series series : all) {

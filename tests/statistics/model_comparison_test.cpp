@@ -61,8 +61,8 @@ TEST(ModelComparison, AParameterOutsideTheCurvesLeavesTheIntervalOpen) {
     EXPECT_GT(best->chi_square, 10.0);
 }
 
-// With normal errors the interval contains the true value in 68 of 100 cases; the tolerance is three
-// standard deviations of 500 cases. Scaled errors make it a little wider.
+// With normal errors the interval contains the true value in 68 of 100 cases; the tolerance is
+// three standard deviations of 500 cases. Scaled errors make it a little wider.
 TEST(ModelComparison, TheIntervalIsOneStandardError) {
     Random random(5);
     const std::vector<ModelCurve> curves{curve_of(0.2), curve_of(0.4), curve_of(0.6)};

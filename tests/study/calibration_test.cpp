@@ -179,8 +179,8 @@ TEST_P(CalibrationOfTheCrossing, Slow_TheIntervalContainsTheCrossingForTwoRanges
     const CrossingResult best = search_crossing(precise);
     ASSERT_EQ(best.crossing().verdict, Crossing::Verdict::crosses);
     const double reference = best.crossing().discs;
-    // The smooth spheres of the experiment change their direction at "roughly 36"; this friction coefficient was fitted
-    // to it (docs/results/spheres.md).
+    // The smooth spheres of the experiment change their direction at "roughly 36"; this friction
+    // coefficient was fitted to it (docs/results/spheres.md).
     if (GetParam().spheres) {
         EXPECT_NEAR(reference, 36.0, 0.5);
     }

@@ -88,8 +88,8 @@ TEST(CrossingSearch, FindsTheSameForEveryRangeThatContainsTheCrossing) {
     }
 }
 
-// 400 searches of a bent curve: the standard deviation of a fraction of 0.95 is 0.011, that of 0.683
-// is 0.023. The interval is conservative if an undetermined point takes part.
+// 400 searches of a bent curve: the standard deviation of a fraction of 0.95 is 0.011, that of
+// 0.683 is 0.023. The interval is conservative if an undetermined point takes part.
 TEST(CrossingSearch, IntervalsContainTheZeroOfAKnownCurve) {
     constexpr int searches = 400;
     for (const double tolerance : {1.0, 0.1}) {
@@ -118,9 +118,10 @@ TEST(CrossingSearch, IntervalsContainTheZeroOfAKnownCurve) {
     }
 }
 
-// With the variance v of a mean over one period and the slope b, the tolerance t needs v/(t b)² periods
-// at the two numbers next to the zero (crossing_search.hpp). The search does not know v and b before,
-// and needs certain signs at the numbers around: a quarter more from overshooting, and as much again.
+// With the variance v of a mean over one period and the slope b, the tolerance t needs v/(t b)²
+// periods at the two numbers next to the zero (crossing_search.hpp). The search does not know v and
+// b before, and needs certain signs at the numbers around: a quarter more from overshooting, and as
+// much again.
 TEST(CrossingSearch, MakesAtMostThreeTimesTheRunsThatTheToleranceNeeds) {
     constexpr double slope = 0.005, error = 0.0025;  // the error is that of 100 periods
     constexpr int searches = 50;

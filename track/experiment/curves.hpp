@@ -10,8 +10,8 @@
 
 namespace swirl {
 
-/// A point of a curve, with "mean_by_event", "mean_by_time", … as the average. NaN for a failed run, which
-/// crossings ignore.
+/// A point of a curve, with "mean_by_event", "mean_by_time", … as the average. NaN for a failed
+/// run, which crossings ignore.
 RotationPoint rotation_point(double x, const Json& result, const char* average);
 
 /// ϖ(N) by each of rotation_rates; `rate` is the one that the figure shows.

@@ -8,12 +8,11 @@
 //
 //     e(x) = s tanh((I(x)/λ − F(x)) / s)         the excess; its sign is reversed for dark discs
 //
-// separates disc from floor and suppresses texture; s is about a third of the typical contrast.
-// The template T is the mean excess about the disc centres. Each disc is fitted by
-// e(x) ≈ g T(x − p), with a narrow prior of the gain g. Gauss–Newton gives the position p; pixels of
-// neighbours and of the wall are omitted. T is learned from the survey frames in a few rounds, from
-// the positions given by edges. Their mean offset is kept, because T itself does not define a
-// centre.
+// separates disc from floor and suppresses texture; s is about a third of the typical contrast. The
+// template T is the mean excess about the disc centres. Each disc is fitted by e(x) ≈ g T(x − p),
+// with a narrow prior of the gain g. Gauss–Newton gives the position p; pixels of neighbours and of
+// the wall are omitted. T is learned from the survey frames in a few rounds, from the positions
+// given by edges. Their mean offset is kept, because T itself does not define a centre.
 //
 // The errors of both positions are independent, so their weighted mean is better than either. The
 // weight minimises the overlaps of hard discs. Videos whose edges suffice do not use the template.

@@ -95,7 +95,8 @@ std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, doubl
         return found;
     const auto soft = contact_of(ratios, 1.0 - soft_range, 1.0 + soft_range, outliers);
     if (soft && std::abs(soft->at - 1.0) < max_soft_off) return soft;
-    // The edge of a transparent ball is within the ball. Discs that never touch have no sharp onset.
+    // The edge of a transparent ball is within the ball. Discs that never touch have no sharp
+    // onset.
     constexpr double max_error = 0.04;
     const auto inside = contact_of(ratios, 1.0 - soft_range, 1.0 + contact_range, outliers);
     if (!inside || inside->at < 1.0 + max_contact_off ||

@@ -33,8 +33,8 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
                                   double farthest, double outliers = 1e-9);
 
 /// The contact of discs, from distances in sums of radii: near 1, or farther off if their edges are
-/// soft and their radii wrong. Uses distances within `contact_range` of 1. A contact far off that is
-/// not sharp counts if it is near `at_wall`, which the positions of discs at the wall imply.
+/// soft and their radii wrong. Uses distances within `contact_range` of 1. A contact far off that
+/// is not sharp counts if it is near `at_wall`, which the positions of discs at the wall imply.
 std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, double at_wall = 0.0,
                                         double outliers = 1e-9);
 inline constexpr double contact_range = 0.5;

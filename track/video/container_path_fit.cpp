@@ -19,7 +19,8 @@ PathCircle circle_through(const std::vector<Vec2>& points) {
     const Vec2 origin = median_point(points);
     // The equations have squares of the distances, so one far outlier would decide the first pass.
     for (const Vec2& p : points) distances.push_back(length(p - origin));
-    // While the container rests, its centre stays at one point of the circle, perhaps in most frames.
+    // While the container rests, its centre stays at one point of the circle, perhaps in most
+    // frames.
     const double middle = median(distances);
     const double far =
         far_ratio * (middle > min_path_amplitude ? middle : quantile(distances, most_points));

@@ -7,10 +7,11 @@
 // remain. The pattern also shows where the container is: frames are registered to it.
 //
 // Discs of equal brightness that cover a point most of the time would be taken for the floor.
-// Therefore the pattern is removed only if most frames contradict the discs that were found with it.
+// Therefore the pattern is removed only if most frames contradict the discs that were found with
+// it.
 //
-// A plain floor between dark and bright discs is removed by folding: |I − F| with the level F of the
-// floor. It has the same edges, but all discs are bright.
+// A plain floor between dark and bright discs is removed by folding: |I − F| with the level F of
+// the floor. It has the same edges, but all discs are bright.
 #pragma once
 
 #include <cstdint>

@@ -320,15 +320,15 @@ std::vector<FrameJump> find_frame_jumps(const std::vector<Vec2>& centres,
 
 // Times of the frames by the phase of the container, if it moves unevenly.
 //
-// A hand swirls faster and slower, starts and stops. Results relative to Ω need only the phase, which
-// every frame shows: the angle of the rim's centre about the centre of its path. If the rate of the
-// phase varies over half a period by more than a motor's, frame k gets the time φ_k/Ω with the mean Ω
-// of the moving part. The path is then uniform, and all later steps work as for a motor.
+// A hand swirls faster and slower, starts and stops. Results relative to Ω need only the phase,
+// which every frame shows: the angle of the rim's centre about the centre of its path. If the rate
+// of the phase varies over half a period by more than a motor's, frame k gets the time φ_k/Ω with
+// the mean Ω of the moving part. The path is then uniform, and all later steps work as for a motor.
 
 namespace {
 
-/// The phase in every frame, unwrapped and ascending on the whole; nothing if the centres of the rim
-/// are not on a circle.
+/// The phase in every frame, unwrapped and ascending on the whole; nothing if the centres of the
+/// rim are not on a circle.
 std::optional<std::vector<double>> unwrapped_phases(const RimCentres& rims, std::size_t frames) {
     constexpr double max_scatter = 0.1, max_off = 0.35;  // of the radius
     constexpr std::size_t min_centres = 8;

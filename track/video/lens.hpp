@@ -10,8 +10,8 @@
 //
 // Two effects bias these sizes. A ball seen at an angle ψ to the camera's axis looks longer by
 // 1/cos ψ away from the axis, larger by 1 + ψ²/4 on average. This makes k too small by tan²(v/2)/8,
-// with v the view angle of the image's height. Balls lit from one side look smaller where the wall is
-// dark, too.
+// with v the view angle of the image's height. Balls lit from one side look smaller where the wall
+// is dark, too.
 //
 // k from contacts: distances of discs in contact have neither bias (contact_distance.hpp). If
 // contacts determine k, the sizes get only the weight that the image resolution of the balls

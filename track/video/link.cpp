@@ -38,7 +38,8 @@ struct Track {
     std::array<Vec2, predictions> expected{};
 };
 
-/// Where a track was expected after `unsure` frames without a sure position, and where it was found.
+/// Where a track was expected after `unsure` frames without a sure position, and where it was
+/// found.
 struct Expectation {
     Vec2 position{0.0, 0.0};
     int unsure = 0;

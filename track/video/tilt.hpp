@@ -13,8 +13,8 @@
 //
 // θ follows from e, and the side on which the camera stands from p.
 //
-// A rolling shutter makes Δr = (s·n) R (n·v). This has the period of p's effect, but its ellipse has
-// another phase relative to its size. If s stands out, it is fitted together with the others.
+// A rolling shutter makes Δr = (s·n) R (n·v). This has the period of p's effect, but its ellipse
+// has another phase relative to its size. If s stands out, it is fitted together with the others.
 //
 // Errors have two parts: the scatter between frames; and what no tilt explains, the harmonics 3 … 8
 // of the rim's mean outline. e may err by as much as these, and p by as much per amplitude of the
@@ -47,8 +47,9 @@ struct KnownCamera {
     std::optional<double> tilt, towards;
 };
 
-/// Sets squeeze, perspective and shutter of `lens`, if they exceed their errors by a factor of four,
-/// and the distortion that follows. `rim` gets this lens, with which it is found from then on.
+/// Sets squeeze, perspective and shutter of `lens`, if they exceed their errors by a factor of
+/// four, and the distortion that follows. `rim` gets this lens, with which it is found from then
+/// on.
 Tilt find_tilt(const std::vector<PreparedFrame>& frames, const KnownCamera& known,
                ContainerRim& rim, Lens& lens);
 

@@ -173,7 +173,8 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     // The rays of a soft edge scatter by more than the circle errs, so a fit to all distances
     // replaces larger ones, too.
     if (!(tracked.position_error > 0.0)) return;
-    // That of an interpolation against a rolling shutter is largest for discs that are not in contact.
+    // That of an interpolation against a rolling shutter is largest for discs that are not in
+    // contact.
     double error = tracked.contact_fitted && !(tracked.readout > 0.0)
                        ? tracked.overlap_error
                        : std::max(tracked.overlap_error, tracked.position_error);

@@ -34,8 +34,8 @@ bool is_numbered(const std::string& source) {
     return source.find('%') != source.npos && !is_stream(source);
 }
 
-/// The least number for which there is an image. Throws Failure if there is none, and UsageError for
-/// a wrong pattern.
+/// The least number for which there is an image. Throws Failure if there is none, and UsageError
+/// for a wrong pattern.
 std::int64_t first_number(const std::string& pattern) {
     constexpr std::size_t max_digits = 15;  // these fit into 64 bits
     if (const auto wrong = video_problem(pattern)) throw UsageError(*wrong);
@@ -116,8 +116,8 @@ std::string read_all(const Ffmpeg& ffmpeg) {
     }
 }
 
-/// Waits for ffmpeg to end. Throws Failure if a signal ended it, since its output is then incomplete.
-/// Errors that ffmpeg itself reports are judged by its output.
+/// Waits for ffmpeg to end. Throws Failure if a signal ended it, since its output is then
+/// incomplete. Errors that ffmpeg itself reports are judged by its output.
 void require_end(Ffmpeg& ffmpeg, const std::string& source) {
     constexpr int stopped = 255;  // its exit code after a signal that it handles
     const int status = ffmpeg.end();

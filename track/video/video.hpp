@@ -1,5 +1,5 @@
-// The frames of a video in order, in grey. ffmpeg decodes them, and rotates them and makes their pixels
-// square as the file asks.
+// The frames of a video in order, in grey. ffmpeg decodes them, and rotates them and makes their
+// pixels square as the file asks.
 //
 // A source is a file that ffmpeg reads, or numbered images ('frames/%05d.png').
 #pragma once

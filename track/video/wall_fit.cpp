@@ -4,8 +4,8 @@
 // one side shifts all positions towards the side that stands out, in proportion to the radius. And
 // the rim is seen at an angle, or a part of it is mistaken for the wall's outer edge.
 //
-// With u the distance of a disc's centre from the rim's, n its direction, and C the direction of the
-// path's centre to the rim's, the gap between the disc and the wall is
+// With u the distance of a disc's centre from the rim's, n its direction, and C the direction of
+// the path's centre to the rim's, the gap between the disc and the wall is
 //
 //     gap = reach + shift·n − excess C·n − u
 //
@@ -145,8 +145,8 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
 
 /// The covariance of the shift by what discs look like: along the gradient of the brightness, it
 /// grows steeply until the shaded edge is as dark as the floor (0.16 and 0.006 radii at gradients
-/// of 0.92 and 0.45; no larger one is known). The direction is unknown for a template, which defines
-/// no centre, and for discs of both brightnesses, whose shifts are opposite.
+/// of 0.92 and 0.45; no larger one is known). The direction is unknown for a template, which
+/// defines no centre, and for discs of both brightnesses, whose shifts are opposite.
 cv::Matx22d expected_shift(const VideoSurvey& survey, bool mixed) {
     constexpr double steepness = 0.2, largest = 0.16;  // radii
     const double any = mixed ? 0.03 : 0.1;             // radii: rms of a coordinate

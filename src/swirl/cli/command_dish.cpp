@@ -176,8 +176,8 @@ nlohmann::ordered_json dish_json(const RunConfig& config, const DishCommands& co
     return json;
 }
 
-/// One run for each friction coefficient, number of particles and seed: the parameters of all, and a
-/// row for each pair.
+/// One run for each friction coefficient, number of particles and seed: the parameters of all, and
+/// a row for each pair.
 SweepPlan plan_beside_points(const DishCall& call, const RunConfig& config,
                              const std::vector<RotationPoint>& points) {
     constexpr const char* friction_coefficients = "0.1:0.1:0.8";

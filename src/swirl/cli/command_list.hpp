@@ -1,12 +1,13 @@
-// The commands, as `swirl --help` lists them. cmake/program.cmake makes a program swirl-NAME of each row, from
-// command_<name>.cpp; ./swirl builds it when it is first called. Both read this file, so a row is one
-// line of five texts:
+// The commands, as `swirl --help` lists them. cmake/program.cmake makes a program swirl-NAME of
+// each row, from command_<name>.cpp; ./swirl builds it when it is first called. Both read this
+// file, so a row is one line of five texts:
 //
 //     name, group in the help, libraries, packages, description
 //
-// `libraries` are those that the program links in addition to swirl_cli: "drawing" is swirl_cli_drawing, and so
-// on. Those of this name in the file `packages` are installed to build it. `packages` are the
-// sections of that file that its calls need. "script" is a script of the source folder and no program.
+// `libraries` are those that the program links in addition to swirl_cli: "drawing" is
+// swirl_cli_drawing, and so on. Those of this name in the file `packages` are installed to build
+// it. `packages` are the sections of that file that its calls need. "script" is a script of the
+// source folder and no program.
 #pragma once
 
 #include <string_view>

@@ -2,8 +2,8 @@
 //
 //     namespace { const swirl::Command run_command("run", add_run_command); }
 //
-// and a row in command_list.hpp. A program contains one command. In packages, one program contains them
-// all (cmake/install.cmake).
+// and a row in command_list.hpp. A program contains one command. In packages, one program contains
+// them all (cmake/install.cmake).
 #pragma once
 
 #include <memory>
@@ -23,8 +23,8 @@ class Command {
     const char* name() const { return name_; }
     void add_options(Subcommand& subcommand) const { add_(subcommand); }
 
-    /// The command of this program; if it contains several, the one that its file name `argv0`, such as
-    /// swirl-run, has. Nothing if it does not contain that one.
+    /// The command of this program; if it contains several, the one that its file name `argv0`,
+    /// such as swirl-run, has. Nothing if it does not contain that one.
     static const Command* of_program(const char* argv0);
 
   private:

@@ -35,8 +35,8 @@ inline constexpr bool required = true;
 
 class Subcommand {
   public:
-    /// subcommand.in("Output").add({{"--json", &json, "File for all results", "FILE"}}): options in a
-    /// group of the help. With a vector as target, an option may be repeated.
+    /// subcommand.in("Output").add({{"--json", &json, "File for all results", "FILE"}}): options in
+    /// a group of the help. With a vector as target, an option may be repeated.
     struct Group {
         std::deque<Option>& all;
         std::string name;
@@ -70,8 +70,8 @@ class Subcommand {
         explanation_ = [text = std::move(text)] { return text; };
     }
     void explain(std::function<std::string()> text) { explanation_ = std::move(text); }
-    /// Throws UsageError for a wrong call that the parser cannot recognise. ./swirl calls it before it
-    /// installs packages for the action.
+    /// Throws UsageError for a wrong call that the parser cannot recognise. ./swirl calls it before
+    /// it installs packages for the action.
     void check(std::function<void()> test) { check_ = std::move(test); }
     /// The action, called after all options are set. It reports errors by exceptions
     /// (run/failure.hpp).

@@ -41,7 +41,8 @@ void reject_unwritable(const std::filesystem::path& file) {
     if (!std::filesystem::is_directory(folder, ignored))
         throw Failure(fmt::format("'{}' cannot be written: there is no folder '{}'.", file.string(),
                                   folder.string()));
-    // A pipe or a device is written in its place. Any other file is replaced, in the folder where it is.
+    // A pipe or a device is written in its place. Any other file is replaced, in the folder where
+    // it is.
     const std::filesystem::file_status about = std::filesystem::status(file, ignored);
     const bool in_place = std::filesystem::status_known(about) &&
                           about.type() != std::filesystem::file_type::not_found &&

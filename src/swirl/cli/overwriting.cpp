@@ -67,8 +67,8 @@ bool has_all(const Json& result, const std::vector<std::string>& names) {
                        [&](const std::string& name) { return measured.contains(name); });
 }
 
-/// True for a file that a killed run of this configuration left before its first checkpoint. A series
-/// is compared line by line while the run repeats it (recorded_run.cpp).
+/// True for a file that a killed run of this configuration left before its first checkpoint. A
+/// series is compared line by line while the run repeats it (recorded_run.cpp).
 bool is_left_by_this_run(const fs::path& file, const RunFiles& files, const RunConfig& config) {
     if (!files.resume) return false;
     if (file == files.trajectory) return is_recording_of(file, config, frames_entry(files));

@@ -1,5 +1,5 @@
-// The program `swirl`: lists the commands, and becomes the program of the one that is called. It uses the
-// standard library only, because its start is part of every call.
+// The program `swirl`: lists the commands, and becomes the program of the one that is called. It
+// uses the standard library only, because its start is part of every call.
 #include <unistd.h>
 
 #include <cerrno>

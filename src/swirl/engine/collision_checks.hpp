@@ -73,8 +73,8 @@ struct Collided {
         if (is_wall()) return {0.0, 0.0};
         return (1.0 / before.inverse_mass) * (after.velocity - before.velocity);
     }
-    /// The angular momentum that the spin has gained; or that a disc has passed on to what holds it,
-    /// if it cannot spin.
+    /// The angular momentum that the spin has gained; or that a disc has passed on to what holds
+    /// it, if it cannot spin.
     SWIRL_INLINE double gain_of_spin(const Impulse& J) const {
         if (is_wall()) return 0.0;
         if (!can_spin()) return before.radius * J.tangential;

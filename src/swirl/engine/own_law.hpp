@@ -41,8 +41,8 @@ struct WithLaw : Search {
     };
 };
 
-/// A law may say that it is for discs only, `static constexpr bool is_for_discs_only = true`. Its loop
-/// for spheres is then not compiled.
+/// A law may say that it is for discs only, `static constexpr bool is_for_discs_only = true`. Its
+/// loop for spheres is then not compiled.
 template <class Law>
 constexpr bool is_for_spheres() {
     if constexpr (requires { Law::is_for_discs_only; }) return !Law::is_for_discs_only;

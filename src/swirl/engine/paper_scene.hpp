@@ -8,8 +8,8 @@
 
 namespace swirl {
 
-/// Discs are placed without overlap. They move with the container, and have small random velocities.
-/// If they do not fit, there are none, and validate() says so.
+/// Discs are placed without overlap. They move with the container, and have small random
+/// velocities. If they do not fit, there are none, and validate() says so.
 InitialState paper_scene(std::size_t discs, double mu, std::uint64_t seed);
 
 }  // namespace swirl

@@ -1,5 +1,6 @@
 // The positions of the discs at the beginning (not from the paper): without overlap, from a seed.
-// All three functions stop the program if a radius is not above 0 and finite (problem_with_radii()).
+// All three functions stop the program if a radius is not above 0 and finite
+// (problem_with_radii()).
 #pragma once
 
 #include <cstdint>

@@ -66,13 +66,14 @@ struct LoopCounts {
 };
 
 /// A function that stops the program does so with a sentence on standard error. The functions of
-/// validate.hpp return the same sentences. Nothing is checked in two cases, in which the behaviour is
-/// undefined: a simulation that was moved from, or stopped while it was constructed, can only be
-/// destroyed or assigned to; and two threads may not use one simulation at the same time, except that
-/// both call functions which are const.
+/// validate.hpp return the same sentences. Nothing is checked in two cases, in which the behaviour
+/// is undefined: a simulation that was moved from, or stopped while it was constructed, can only be
+/// destroyed or assigned to; and two threads may not use one simulation at the same time, except
+/// that both call functions which are const.
 class Simulation {
   public:
-    /// Stops the program if validate() reports a problem with the scene and progress, or the tuning.
+    /// Stops the program if validate() reports a problem with the scene and progress, or the
+    /// tuning.
     explicit Simulation(const InitialState& scene, const Progress& progress = {},
                         const Tuning& tuning = {});
     ~Simulation();
@@ -86,8 +87,8 @@ class Simulation {
     void run(std::uint64_t count);
 
     /// Executes all events up to and including the given time and sets the clock to it. Discs keep
-    /// their stored states, so the time of an observation never affects results. Stops the program if
-    /// the time is past or the clock is not from 0 to the period (problem_with_time()).
+    /// their stored states, so the time of an observation never affects results. Stops the program
+    /// if the time is past or the clock is not from 0 to the period (problem_with_time()).
     void advance_to(std::int64_t periods, double clock);
     /// The same, but executes at most `maximum` events. Returns whether the time was reached.
     bool advance_to(std::int64_t periods, double clock, std::uint64_t maximum);
@@ -97,8 +98,8 @@ class Simulation {
     /// At the start of a period: replaces path, surfaces and floor by those of `scene`, whose discs
     /// are ignored. Time and counts of events continue. Discs keep their velocities, and their
     /// positions relative to the container: they are shifted by the difference of the two paths'
-    /// starting points. Stops the program in the middle of a period, if the new path has another number
-    /// of segments, or if validate() reports a problem with the new scene.
+    /// starting points. Stops the program in the middle of a period, if the new path has another
+    /// number of segments, or if validate() reports a problem with the new scene.
     void change_surroundings(InitialState scene, const Tuning& tuning = {});
     /// Executes at most `maximum` events, all before this time of the present period and before its
     /// end, and adds them to the span. Stops the program if the clock is NaN.

@@ -24,7 +24,8 @@ const EventLoops& event_loops(const InitialState& scene, Width width) {
     return scene.law ? *scene.law.loops : event_loops(width_meant(width));
 }
 
-/// The method that suits the scene, if there is a loop for it; otherwise the one that always exists.
+/// The method that suits the scene, if there is a loop for it; otherwise the one that always
+/// exists.
 SearchMethod method_of(const InitialState& scene, const RadiusRange& radii, const Tuning& tuning,
                        const EventLoops& loops) {
     const SearchMethod method = choose_search(scene, radii, tuning, loops.max_all_pairs);

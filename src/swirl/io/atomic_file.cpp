@@ -46,8 +46,8 @@ std::string target_of(const std::string& name) {
 
 constexpr std::size_t buffer_size = 1 << 20;
 
-/// The temporary files that were in each folder when this process first wrote a file there. Those of
-/// other processes that are killed later are left to the next process: to list a folder of 10⁵
+/// The temporary files that were in each folder when this process first wrote a file there. Those
+/// of other processes that are killed later are left to the next process: to list a folder of 10⁵
 /// results for each of them would take longer than the runs.
 class Leftovers {
   public:

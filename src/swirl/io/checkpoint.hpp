@@ -22,8 +22,8 @@ struct Checkpoint {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// Throws DamagedFile if the content does not match its checksum, as in a file that was cut off, and
-/// FileError if the file cannot be read, is of another version, or is not a checkpoint.
+/// Throws DamagedFile if the content does not match its checksum, as in a file that was cut off,
+/// and FileError if the file cannot be read, is of another version, or is not a checkpoint.
 Checkpoint read_checkpoint(const std::filesystem::path& path);
 
 }  // namespace swirl

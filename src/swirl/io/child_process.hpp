@@ -21,7 +21,8 @@ int start_child(std::vector<std::string> words, const ChildFiles& files, int& pr
 int wait_for_child(int process);
 
 /// `text` is from the standard output and the standard error. If the program was not started,
-/// `error` gives the reason, as errno does. `exit_code` stays −1 also if a signal ended the program.
+/// `error` gives the reason, as errno does. `exit_code` stays −1 also if a signal ended the
+/// program.
 struct ProgramOutput {
     int error = 0, exit_code = -1;
     std::string text = {};

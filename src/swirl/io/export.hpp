@@ -22,8 +22,8 @@
 // columns (table); log/particles/rolling_spin (gsd).
 //
 // If it is known which discs are pinned and resident at the wall (run/pinned_series.hpp), all
-// formats but csv have this in addition: pinned and resident, 1 or 0. Unknown is -1 (lammps, xyz), an
-// empty cell (table) or NaN (vtp, and gsd under log/particles/).
+// formats but csv have this in addition: pinned and resident, 1 or 0. Unknown is -1 (lammps, xyz),
+// an empty cell (table) or NaN (vtp, and gsd under log/particles/).
 //
 // With ExportOptions::container, lammps and xyz have the container as one more particle: the last
 // one, of a type of its own, with the container's radius and velocity and without mass.

@@ -106,7 +106,8 @@ void require_separate_bodies(const Snapshot& s, const std::string& file) {
         for (std::size_t b = a + 1; b < order.size(); ++b) {
             const std::size_t j = order[b];
             if (s.x[j] - s.x[i] > s.radius[i] + largest) break;
-            // Spheres of two sizes that touch on a floor are this far apart in the plane, discs further.
+            // Spheres of two sizes that touch on a floor are this far apart in the plane, discs
+            // further.
             const double least = 2.0 * std::sqrt(s.radius[i] * s.radius[j]);
             if (distance(s.position(i), s.position(j)) < (1.0 - tolerance) * least)
                 reject(fmt::format("discs {} and {} overlap", std::min(i, j), std::max(i, j)));

@@ -18,8 +18,8 @@ enum class Spins {
 /// if it is not empty.
 void require_possible(const Snapshot& snapshot, Spins spins, const std::string& file = "");
 
-/// Throws FileError if two bodies overlap, or if one is outside of the container. Only for recordings
-/// of a simulation, since a camera's positions have errors.
+/// Throws FileError if two bodies overlap, or if one is outside of the container. Only for
+/// recordings of a simulation, since a camera's positions have errors.
 void require_separate_bodies(const Snapshot& snapshot, const std::string& file);
 
 }  // namespace swirl

@@ -23,10 +23,10 @@ void reject_foreign_recording(const std::filesystem::path& path, const std::stri
 /// The provenance entry `name` of a recording, "" if there is none.
 std::string recorded_entry(const std::filesystem::path& file, const std::string& name);
 
-/// Opens a recording to continue it. Throws DamagedFile, without a hint, if it is missing, belongs to
-/// another run, or has no such dataset and is therefore a recording of another kind. If the process was
-/// killed after the recording was published and before the result was written, the recording gets its
-/// partial name back.
+/// Opens a recording to continue it. Throws DamagedFile, without a hint, if it is missing, belongs
+/// to another run, or has no such dataset and is therefore a recording of another kind. If the
+/// process was killed after the recording was published and before the result was written, the
+/// recording gets its partial name back.
 Hdf5File reopen_recording(const std::filesystem::path& path, const std::string& run,
                           const std::string& dataset);
 

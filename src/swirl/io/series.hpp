@@ -31,8 +31,8 @@ struct SnapshotSeries {
     std::function<Snapshot(std::uint64_t)> frame;
     /// Frames whose discs differ from those of the frame before, ascending.
     std::vector<std::uint64_t> breaks = {};
-    /// Smoothing reduces velocities (swirl/io/track_smoothing.hpp). The mean of ½u² per disc, with u
-    /// relative to the container, is larger by this value than that of the smoothed velocities.
+    /// Smoothing reduces velocities (swirl/io/track_smoothing.hpp). The mean of ½u² per disc, with
+    /// u relative to the container, is larger by this value than that of the smoothed velocities.
     double missing_energy = 0.0;
     /// False if the path of the container is known to have no M-frame.
     bool has_m_frame = true;
@@ -56,8 +56,8 @@ struct SnapshotSeries {
     bool same_discs() const { return breaks.empty(); }
 };
 
-/// True if the container goes round the swirl centre clockwise, nearly on a circle. For frames whose
-/// configuration is unknown.
+/// True if the container goes round the swirl centre clockwise, nearly on a circle. For frames
+/// whose configuration is unknown.
 inline bool moves_clockwise(const Snapshot& s) {
     const Vec2 C = s.container_centre, V = s.container_velocity;
     return cross(C, V) < -0.9 * square_root(dot(C, C) * dot(V, V));

@@ -20,8 +20,8 @@ std::string short_value(std::string_view value) {
     return shortened(value, may_be_path ? max_quoted_path : max_quoted);
 }
 
-/// The end of the quotation that begins at `begin`: a quotation mark that no letter follows. Its end
-/// is unknown if there is none, or the value contains such a mark; words are then shortened.
+/// The end of the quotation that begins at `begin`: a quotation mark that no letter follows. Its
+/// end is unknown if there is none, or the value contains such a mark; words are then shortened.
 std::size_t end_of_quotation(std::string_view message, std::size_t begin) {
     for (std::size_t end = message.find('\'', begin + 1); end != message.npos;
          end = message.find('\'', end + 1))

@@ -36,7 +36,8 @@ struct TrackFrame {
     std::vector<Vec2> velocity;  // empty if not given, like the vectors below
     std::vector<double> radius, mass, spin;
     std::vector<double> velocity_error;  // standard error per coordinate, set by smooth()
-    /// In the camera's unit of time; given if frames are not equally spaced in time (equal_steps.hpp).
+    /// In the camera's unit of time; given if frames are not equally spaced in time
+    /// (equal_steps.hpp).
     std::optional<double> time = {};
 };
 

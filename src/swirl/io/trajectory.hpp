@@ -86,7 +86,8 @@ class TrajectoryWriter {
 };
 
 /// Random access to the frames of a trajectory. A recording that is being written can be read, too:
-/// the reader has the frames that it had when it was opened, and opens it again when it has changed.
+/// the reader has the frames that it had when it was opened, and opens it again when it has
+/// changed.
 class TrajectoryReader {
   public:
     /// Opens a finished or unfinished file. This constructor and frame() throw FileError, also for

@@ -114,8 +114,8 @@ class BasicObservation {
     /// For smoothed velocities: ½⟨u²⟩ of a disc, relative to the container, is larger by `missing`.
     void add_energy(double missing);
 
-    /// One report for each measurement, in the order of their names: in r, v and m, with errors
-    /// for few periods (few_blocks.hpp). A recording has at most `whole_periods` independent blocks.
+    /// One report for each measurement, in the order of their names: in r, v and m, with errors for
+    /// few periods (few_blocks.hpp). A recording has at most `whole_periods` independent blocks.
     std::vector<MeasurementReport> report(
         std::size_t whole_periods = std::numeric_limits<std::size_t>::max()) const;
     /// The velocities of the frames are differences of positions, as those of tracks.

@@ -167,8 +167,8 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     RotationSample sample_by_time(const Snapshot& snapshot, double weight = 1.0);
 
     /// Call at the end of every period. The samples since the last call become a block; an open
-    /// block does not count. Blocks by event are weighted with their events, and blocks by time with
-    /// their samples, each of which counts `weight_by_time`.
+    /// block does not count. Blocks by event are weighted with their events, and blocks by time
+    /// with their samples, each of which counts `weight_by_time`.
     void close_block(std::uint64_t events_of_a_sample = 1, double weight_by_time = 1.0);
 
     /// The means over the samples since the last close_block(), in units of Ω, in the order of

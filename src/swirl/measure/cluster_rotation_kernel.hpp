@@ -41,8 +41,8 @@ struct RotationAcceleration {
     const double *ax, *ay;
 };
 
-/// The kernel for one vector width and at least eight discs, or for fewer in `rates_of_few`. The columns of the snapshot are
-/// separate arguments, since then they stay in registers.
+/// The kernel for one vector width and at least eight discs, or for fewer in `rates_of_few`. The
+/// columns of the snapshot are separate arguments, since then they stay in registers.
 struct RotationKernel {
     /// The centre of mass at `clock`.
     RotationCentre (*centre)(const double* x, const double* y, const double* vx, const double* vy,

@@ -55,7 +55,8 @@ EnergyChange energy_change(const Event& event, const Snapshot& after) {
     const double half_excess = 0.5 * inverse_masses * excess;
     change.inelastic_loss =
         -J.normal * (normal_after - 0.5 * J.normal * inverse_masses - J.normal * half_excess);
-    // Two products: the sum of the inverse masses and spins would be rounded, too, and is a constant.
+    // Two products: the sum of the inverse masses and spins would be rounded, too, and is a
+    // constant.
     change.friction_loss = -J.tangential * (slip_after - 0.5 * J.tangential * inverse_masses -
                                             J.tangential * (0.5 * inverse_spins + half_excess));
     if (after.are_spheres()) {

@@ -31,22 +31,22 @@ inline constexpr double wall_layer = 1.5;
 /// Minimum length of a long residence, in periods: 40 frames of the paper's camera.
 inline constexpr double long_residence = 40.0 / samples_per_period;
 
-/// A residence seems one step too short on average, because it lasts from its first sample to its last.
-/// Lengths are those that the paper's camera sees, and this is what they miss with another step. At the
-/// camera's own step it is 0, without a rounding error.
+/// A residence seems one step too short on average, because it lasts from its first sample to its
+/// last. Lengths are those that the paper's camera sees, and this is what they miss with another
+/// step. At the camera's own step it is 0, without a rounding error.
 inline double missing_length(double step, double period) {
     const double missing = step - period / samples_per_period;
     return std::fabs(missing) > 1e-6 * step ? missing : 0.0;
 }
 
-/// The time from its first sample to its last that a residence of `minimum` periods must have. It is
-/// reduced by half a step, because times are rounded.
+/// The time from its first sample to its last that a residence of `minimum` periods must have. It
+/// is reduced by half a step, because times are rounded.
 inline double least_length(double minimum, double step, double period) {
     return minimum * period - 0.5 * step - missing_length(step, period);
 }
 
-/// Lowest frame rate at which it is known which discs are resident. Averages over residences need more
-/// frames (quantities.hpp).
+/// Lowest frame rate at which it is known which discs are resident. Averages over residences need
+/// more frames (quantities.hpp).
 inline constexpr double min_rate_of_resident = quantity("slip.resident").min_rates.of_frames;
 
 /// True if the centre of disc i is less than `radii` of its radii from the wall. A layer thicker

@@ -55,8 +55,8 @@ struct MFrame {
 
 MFrame m_frame(const Snapshot& snapshot);
 
-/// A whole snapshot in the M-frame; the container rests at the origin. The discs' states are advanced
-/// to the clock.
+/// A whole snapshot in the M-frame; the container rests at the origin. The discs' states are
+/// advanced to the clock.
 Snapshot seen_from(const MFrame& frame, const Snapshot& lab);
 
 /// The centre of mass of a view.

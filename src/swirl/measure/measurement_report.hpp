@@ -1,5 +1,5 @@
-// The results of a measurement: rows, each a quantity with its error, and tables of such quantities.
-// A measurement hands them over one by one,
+// The results of a measurement: rows, each a quantity with its error, and tables of such
+// quantities. A measurement hands them over one by one,
 //
 //     template <class Visitor> void report(Visitor&& visit) const {
 //         visit(ReportRow{quantity("temperature.granular"), granular()});

@@ -71,8 +71,8 @@ struct PinningCriteria {
     double sharp_turn = 0.5;       // unit: ΩR
 };
 
-/// Lowest frame rate at which pinned discs and sharp turns are determined. At 120 frames per period,
-/// sharp turns are found 1.6° too late.
+/// Lowest frame rate at which pinned discs and sharp turns are determined. At 120 frames per
+/// period, sharp turns are found 1.6° too late.
 inline constexpr double min_rate_of_pinned = quantity("pinned.share").min_rates.of_frames;
 
 /// Numbers of frames in the criteria.

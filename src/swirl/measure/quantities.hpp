@@ -1,6 +1,6 @@
-// All printed numbers, one row each: the rows of every report, the columns of every table, and those
-// of a series. quantity.hpp says what the columns of this list mean. A measurement names its rows
-// with quantity(), so a number without a row does not compile.
+// All printed numbers, one row each: the rows of every report, the columns of every table, and
+// those of a series. quantity.hpp says what the columns of this list mean. A measurement names its
+// rows with quantity(), so a number without a row does not compile.
 //
 // Every number is measured in the mirror image if the dish is clockwise (physics/mirrored.hpp), so
 // none of them changes its sign with the direction of the swirl.

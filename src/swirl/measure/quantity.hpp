@@ -70,8 +70,8 @@ constexpr double integer_power(double base, int exponent) {
     return exponent < 0 ? 1.0 / product : product;
 }
 
-/// r, v and m in the units of the snapshots: the radius and the mass of a disc, and the speed of the
-/// container.
+/// r, v and m in the units of the snapshots: the radius and the mass of a disc, and the speed of
+/// the container.
 struct MeasuredUnits {
     double r = 1.0, v = 1.0, m = 1.0;
 
@@ -104,8 +104,8 @@ enum class Per : std::uint8_t {
 };
 
 /// Frames per period of a recording below which a value is biased by more than a third of its error
-/// in 400 periods, and is n/a. 0 if a frame now and then shows the value. Measured with 5, 12 and 48
-/// discs (tests/run/frame_rates_test.cpp).
+/// in 400 periods, and is n/a. 0 if a frame now and then shows the value. Measured with 5, 12 and
+/// 48 discs (tests/run/frame_rates_test.cpp).
 struct MinRates {
     double of_frames;  // frames that hold velocities
     double of_tracks;  // positions alone: velocities are differences, which miss collisions

@@ -31,8 +31,8 @@
 
 namespace swirl {
 
-/// sample(view, cells, pinned): at every 100th of 511 samples per period, with the Voronoi cells of that frame. If
-/// pinned discs are followed, the frame is that of seven samples ago.
+/// sample(view, cells, pinned): at every 100th of 511 samples per period, with the Voronoi cells of
+/// that frame. If pinned discs are followed, the frame is that of seven samples ago.
 template <class M>
 concept SamplesCells = requires(M& m, const MFrameView& view, const Voronoi& cells,
                                 PinnedFlags pinned) {

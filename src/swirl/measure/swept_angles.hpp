@@ -1,6 +1,6 @@
-// By how much have the discs turned about a point that moves uniformly between events, such as their
-// centre of mass? The integral of ϖ_i = r × v / r² over a flight is the change of the polar angle of
-// disc i, so the mean of ϖ_i over time has no error of sampling:
+// By how much have the discs turned about a point that moves uniformly between events, such as
+// their centre of mass? The integral of ϖ_i = r × v / r² over a flight is the change of the polar
+// angle of disc i, so the mean of ϖ_i over time has no error of sampling:
 //
 //   ∫ϖ_i dt = θ_i(end) − θ_i(begin) + 2π (number of full turns),  0 ≤ θ_i < 2π
 //

@@ -29,8 +29,8 @@ struct Disc {
     // For spheres only.
     Vec2 rolling_spin{0.0, 0.0};  // (ω_x, ω_y)
     double last_collision = 0.0;  // time of the last collision; `time` may be later
-    /// 1, or 0 for a particle that cannot spin: it responds to no torque about the vertical axis, as
-    /// if its moment of inertia were infinite. A sphere that cannot spin rolls like any other.
+    /// 1, or 0 for a particle that cannot spin: it responds to no torque about the vertical axis,
+    /// as if its moment of inertia were infinite. A sphere that cannot spin rolls like any other.
     double can_spin = 1.0;
 
     /// 1/I for the spin about the vertical axis.

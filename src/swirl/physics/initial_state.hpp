@@ -16,8 +16,8 @@ namespace swirl {
 struct EventLoops;
 struct Impact;
 
-/// A contact law of your own (contact_law.hpp) with the event loops that apply it. own_law() makes it
-/// (engine/own_law.hpp). Without one, the coefficients are those of the surfaces.
+/// A contact law of your own (contact_law.hpp) with the event loops that apply it. own_law() makes
+/// it (engine/own_law.hpp). Without one, the coefficients are those of the surfaces.
 struct OwnLaw {
     std::shared_ptr<const void> law = {};  // the object that `surface_of` and the loops read
     Surface (*surface_of)(const void* law, const Surface& surface, const Impact& impact) = nullptr;

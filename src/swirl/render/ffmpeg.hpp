@@ -1,7 +1,7 @@
 // Runs the program ffmpeg as a child process, connected through a socket.
 //
-// After Ctrl-C this program ends ffmpeg properly (io/child_process.hpp). The standard error of ffmpeg is
-// stored, to be quoted in error messages.
+// After Ctrl-C this program ends ffmpeg properly (io/child_process.hpp). The standard error of
+// ffmpeg is stored, to be quoted in error messages.
 #pragma once
 
 #include <string>

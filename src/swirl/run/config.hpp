@@ -39,8 +39,8 @@ Tuning stopped_by(const std::atomic<bool>* stop);
 /// Mean speed of the container along its path: 2AM sin(π/M)/T on the polygon, AΩ on the circle.
 double container_speed(const RunConfig& config);
 
-/// r, v and m of a configuration, in its own units. v is rounded to 24 bits, as many as the digits of
-/// the paper's A and T define, so that the paper's container moves at 1. If the container is at
+/// r, v and m of a configuration, in its own units. v is rounded to 24 bits, as many as the digits
+/// of the paper's A and T define, so that the paper's container moves at 1. If the container is at
 /// rest, v is the speed of the paper's container with this r and T.
 MeasuredUnits units_of(const RunConfig& config);
 ObservedDish dish_of(const RunConfig& config);

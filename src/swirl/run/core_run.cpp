@@ -252,8 +252,8 @@ void CoreRun::begin_angles(std::uint64_t events) {
         rotation().begin_angles(snapshot_);
 }
 
-/// Smaller spins, in units of Ω, are none: those of discs that cannot spin, but for a huge moment of
-/// inertia. Their changes mean nothing.
+/// Smaller spins, in units of Ω, are none: those of discs that cannot spin, but for a huge moment
+/// of inertia. Their changes mean nothing.
 constexpr double smallest_spin = 1e-6;
 
 std::vector<double> without_tiny_values(std::vector<double> blocks) {

@@ -1,5 +1,6 @@
-// When a run samples its rotation by event: after every `interval` events. The interval follows from
-// the number of discs and from the events of the last period, so a resumed run has the same samples.
+// When a run samples its rotation by event: after every `interval` events. The interval follows
+// from the number of discs and from the events of the last period, so a resumed run has the same
+// samples.
 //
 // A sample that is due is taken as late as possible, so that the processor need not wait for the
 // snapshot to be written (cluster_rotation.hpp).

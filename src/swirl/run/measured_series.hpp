@@ -1,6 +1,6 @@
 // The measurements on recorded frames: of a trajectory, of a camera's tracks, or of a run sampled
-// as a camera would. Blocks are whole periods, as in a run. Recordings are often short, so errors are
-// corrected for few blocks (few_blocks.hpp).
+// as a camera would. Blocks are whole periods, as in a run. Recordings are often short, so errors
+// are corrected for few blocks (few_blocks.hpp).
 #pragma once
 
 #include <atomic>

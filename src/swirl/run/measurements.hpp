@@ -55,8 +55,8 @@ inline bool is_direction(std::string_view name) {
 }
 
 /// One line for every row and every table. Missing values are summarized: a measurement without any
-/// value is one line, and if most values are missing, one line counts them. Of a run with units, each
-/// number is also in the user's.
+/// value is one line, and if most values are missing, one line counts them. Of a run with units,
+/// each number is also in the user's.
 std::string measured_text(const MeasurementReports& reports, const RunConfig* run = nullptr);
 
 /// The files that write_measured_tables() writes for these measurements.

@@ -32,8 +32,8 @@ class Code {
 
 class Message;
 
-/// A value in a sentence: a number, a text that is the same in each language (such as the name of an
-/// option, or what the user wrote), words of which one is to be chosen, or a phrase.
+/// A value in a sentence: a number, a text that is the same in each language (such as the name of
+/// an option, or what the user wrote), words of which one is to be chosen, or a phrase.
 struct MessageValue {
     enum class Kind { number, text, words, phrase };
 

@@ -477,8 +477,8 @@ std::string default_of(const Parameter& p) {
     return shortened(as_text(is_unset ? member_value(p, {}) : written));
 }
 
-/// An explicit `--floor none` switches the floor's parameters off, for example in a sweep. A ramp of
-/// one of them is an error in any case.
+/// An explicit `--floor none` switches the floor's parameters off, for example in a sweep. A ramp
+/// of one of them is an error in any case.
 static void reject_parameters_without_floor(const ParameterTexts& texts, const RunConfig& config) {
     if (config.floor) return;
     for (const Parameter& p : run_parameters) {

@@ -43,8 +43,8 @@ using ParameterFormatter = std::string(const RunConfig& config);
 /// The pass in which a row is read. A row may depend on rows of earlier passes.
 enum class ReadingOrder { first, second, last };
 
-/// Whether a parameter is part of a written configuration. A new one is `not_default`: results, seeds
-/// of sweeps and checkpoints of runs without it then stay the same.
+/// Whether a parameter is part of a written configuration. A new one is `not_default`: results,
+/// seeds of sweeps and checkpoints of runs without it then stay the same.
 enum class WrittenIf {
     always,       // null if it is not set
     set,          // omitted if it is not set
@@ -69,8 +69,8 @@ constexpr bool needs_spheres(AppliesTo runs) {
     return runs == AppliesTo::spheres || runs == AppliesTo::rolling_spheres;
 }
 
-/// What a preset does to a parameter. If a file gives a parameter and the command line a preset, the
-/// preset replaces the file's value, unless it leaves the parameter alone.
+/// What a preset does to a parameter. If a file gives a parameter and the command line a preset,
+/// the preset replaces the file's value, unless it leaves the parameter alone.
 enum class InPreset {
     unchanged,
     set,

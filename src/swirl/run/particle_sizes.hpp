@@ -32,8 +32,8 @@ struct ParticleProperties {
 /// All particles, in order of their numbers. Radii of a distribution follow from the seed.
 std::vector<ParticleProperties> particles_of(const RunConfig& config);
 
-/// Disc::can_spin of n particles: 0 for the share --cannot-spin of them, rounded to whole particles.
-/// The seed determines which. A larger share includes the particles of a smaller one.
+/// Disc::can_spin of n particles: 0 for the share --cannot-spin of them, rounded to whole
+/// particles. The seed determines which. A larger share includes the particles of a smaller one.
 std::vector<double> which_can_spin(const RunConfig& config, std::size_t n);
 
 /// Mass of a particle of this radius that consists of the material of --radius and --mass.

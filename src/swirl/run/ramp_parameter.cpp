@@ -1,5 +1,5 @@
-// Reads and validates the ramps of a run (ramp.hpp). The browser page has no ramps, so its sentences
-// have no codes.
+// Reads and validates the ramps of a run (ramp.hpp). The browser page has no ramps, so its
+// sentences have no codes.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

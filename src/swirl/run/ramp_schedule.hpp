@@ -18,7 +18,8 @@ class RampSchedule {
 
     const ContainerPath& path() const { return path_; }
 
-    /// Continues with the values of the period that begins. False if they are those of the last one.
+    /// Continues with the values of the period that begins. False if they are those of the last
+    /// one.
     bool begin_period(const RunConfig& config, Simulation& simulation, const Tuning& tuning,
                       Snapshot& snapshot) {
         const std::int64_t period = simulation.periods();

@@ -127,8 +127,8 @@ std::string run_name(const Json& identity) {
     return fmt::format("{:016x}", checksum(identity.dump() + version()));
 }
 
-/// The series of a run that is not finished, as NAME.partial: it grows by a line per period, so that
-/// you can look at it. A killed run leaves it.
+/// The series of a run that is not finished, as NAME.partial: it grows by a line per period, so
+/// that you can look at it. A killed run leaves it.
 ///
 /// A run that was killed between its series and its result also leaves the series itself. A resumed
 /// run writes the same lines again, so a file with other lines belongs to another run.
@@ -239,8 +239,8 @@ class Recorder {
     }
 
   private:
-    /// A series that is there already. In the folder of a sweep it belongs to the run, even if it is
-    /// damaged; the files of a call are the user's.
+    /// A series that is there already. In the folder of a sweep it belongs to the run, even if it
+    /// is damaged; the files of a call are the user's.
     bool may_be_of_another_run() const {
         return files_.resume && !resumes_checkpoint_ && !files_.in_folder_of_runs;
     }

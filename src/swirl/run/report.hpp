@@ -21,7 +21,8 @@ std::string series_text(const PeriodSeries& series);
 /// 1, −1, or 0 if the mean is within two standard errors of zero.
 int direction_of(const Estimate& rotation);
 /// "rotate with the swirl", "rotate against the swirl (counterrotation)" or "stall, …". On a path
-/// without an M-frame there is no swirl: "rotate clockwise". `clockwise`: the direction of the path.
+/// without an M-frame there is no swirl: "rotate clockwise". `clockwise`: the direction of the
+/// path.
 std::string rotation_words(const Estimate& rotation, bool with_a_swirl, bool clockwise = false);
 
 /// A line of a report: "  steady      yes".

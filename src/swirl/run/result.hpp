@@ -23,8 +23,8 @@ struct RunResult {
     double periods = 0.0;       // including the warm-up
     std::int64_t warmup = 0;    // whole periods excluded from the averages
     EventCounts warmup_events;  // events in the warm-up
-    /// In units of Ω, in the lab frame, over whole periods; mean_by_event is the paper's average. All
-    /// values are NaN if there is no whole period after the warm-up.
+    /// In units of Ω, in the lab frame, over whole periods; mean_by_event is the paper's average.
+    /// All values are NaN if there is no whole period after the warm-up.
     RotationEstimates rotation;
     std::uint64_t events_per_rotation_sample = 1;  // value of the last period
     SteadyState steady;        // test of the rotation by event, after the warm-up

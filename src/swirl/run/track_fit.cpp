@@ -145,7 +145,8 @@ std::string closest_discs(const Tracks& tracks, const TrackScale& scale) {
     return text;
 }
 
-/// Throws Failure if more than this share of the frames contradicts the calibration by `swirl track`.
+/// Throws Failure if more than this share of the frames contradicts the calibration by `swirl
+/// track`.
 void reject_contradicted_calibration(const Tracks& tracks, const TrackFit& fit,
                                      const TrackScale& scale, double share) {
     if (fit.overlapping <= share && fit.outside <= share) return;

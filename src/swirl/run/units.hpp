@@ -1,7 +1,7 @@
 // Values with units: "3mm", "78rpm", "0.532s", "9.81m/s2".
 //
-// A run computes with r as the unit of length and r/v as the unit of time, where v = AΩ is the speed
-// of the container. If values have units, they are converted before anything reads them:
+// A run computes with r as the unit of length and r/v as the unit of time, where v = AΩ is the
+// speed of the container. If values have units, they are converted before anything reads them:
 //
 //     R' = R/r,   A' = A/r,   T' = 2π A',   g' = g τ²/r,   t_c' = t_c/τ,   τ = T/T'.
 //

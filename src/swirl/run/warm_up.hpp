@@ -1,6 +1,6 @@
-// The warm-up of a run, and the averages that it separates: rotation and spin during the warm-up and
-// after it. It ends at the end of a period: after a given number of periods, when the beginning is
-// forgotten (steady_state.hpp), or, without either, after twenty periods or a fifth of the run.
+// The warm-up of a run, and the averages that it separates: rotation and spin during the warm-up
+// and after it. It ends at the end of a period: after a given number of periods, when the beginning
+// is forgotten (steady_state.hpp), or, without either, after twenty periods or a fifth of the run.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@ struct WarmUp {
     ClusterRotation& rotation() { return is_over ? rotation_after : rotation_before; }
     BlockMean& spin() { return is_over ? spin_after : spin_before; }
 
-    /// Called at the end of each period. True if the warm-up ends with it. `fraction`: the completed
-    /// part of the run.
+    /// Called at the end of each period. True if the warm-up ends with it. `fraction`: the
+    /// completed part of the run.
     bool ends(const RunConfig& config, std::int64_t periods, double fraction) {
         if (is_over) return false;
         if (config.warmup_found)

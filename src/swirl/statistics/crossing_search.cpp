@@ -191,8 +191,8 @@ void CrossingSearch::add_bracket(const Crossing& crossing,
     }
 }
 
-/// The error of the mean without Student's factor. If the replicates disagree, only their scatter is
-/// known to contain everything.
+/// The error of the mean without Student's factor. If the replicates disagree, only their scatter
+/// is known to contain everything.
 double CrossingSearch::own_error(const Group& group) const {
     const Ensemble all = combined(group, rules_.rate);
     return all.disagree || !(all.within > 0.0) ? all.estimate.error : all.within;

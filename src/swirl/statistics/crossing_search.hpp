@@ -18,20 +18,20 @@
 //
 //     σ² = v [(1 − f)²/T_N + f²/T_{N+1}] / b².
 //
-// For a given sum T of both lengths it is smallest for T_N = (1 − f) T and T_{N+1} = f T. It is then
-// v/(T b²), and the square of the tolerance gives T. All other numbers of the bracket, at the distance
-// d from x_0, are there because their sign is uncertain. Their mean is expected to be b d, so they
-// need the length v (planned_sign/(b d))², or at most T.
+// For a given sum T of both lengths it is smallest for T_N = (1 − f) T and T_{N+1} = f T. It is
+// then v/(T b²), and the square of the tolerance gives T. All other numbers of the bracket, at the
+// distance d from x_0, are there because their sign is uncertain. Their mean is expected to be b d,
+// so they need the length v (planned_sign/(b d))², or at most T.
 //
 // What the plan knows is uncertain itself. So a batch makes a group at most `growth` times as long,
 // and the next one is planned from all runs. Lengths follow from the line, not from the mean of the
-// group alone. If each group got runs until its own sign is certain, it would stop where chance moves
-// it away from zero, and the interval of N_c would be too narrow.
+// group alone. If each group got runs until its own sign is certain, it would stop where chance
+// moves it away from zero, and the interval of N_c would be too narrow.
 //
-// A batch adds `seeds` runs at a number, of equal length. If the replicates at a number scatter more
-// than their errors explain, longer runs do not help, for example because each seed draws other
-// sizes. From then on, a batch there has more runs of the same length. Without `longer_runs`, this
-// holds from the start.
+// A batch adds `seeds` runs at a number, of equal length. If the replicates at a number scatter
+// more than their errors explain, longer runs do not help, for example because each seed draws
+// other sizes. From then on, a batch there has more runs of the same length. Without `longer_runs`,
+// this holds from the start.
 //
 // After each step the search narrows again. One curve (`rate`) controls step 3; the others are
 // evaluated from the same runs. The runs at a number near N_c depend on the runs made there,
@@ -59,7 +59,8 @@ namespace swirl {
 
 /// A batch makes a group at most so many times as long. The plan is then made again.
 inline constexpr double growth = 4.0;
-/// Errors from zero for which the plan makes a sign certain: three would succeed in half of all cases.
+/// Errors from zero for which the plan makes a sign certain: three would succeed in half of all
+/// cases.
 inline constexpr double planned_sign = 4.0;
 
 /// Default maximum of runs at one number of discs.

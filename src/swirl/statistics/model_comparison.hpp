@@ -5,9 +5,9 @@
 //
 //     (y − m(N))² / (e² + s(N)²)
 //
-// to χ². Points outside the range of N of a curve are left out of all curves, so that their χ² can be
-// compared. Between two neighbouring values of p, m(N) and s(N) are straight lines as well. The best
-// p has the least χ² in the range of the curves, and its interval contains every p with
+// to χ². Points outside the range of N of a curve are left out of all curves, so that their χ² can
+// be compared. Between two neighbouring values of p, m(N) and s(N) are straight lines as well. The
+// best p has the least χ² in the range of the curves, and its interval contains every p with
 //
 //     χ²(p) ≤ χ²_min + max(1, χ²_min/f),   f = number of points − 1.
 //
@@ -50,7 +50,8 @@ struct BestParameter {
     double error() const { return 0.5 * (upper - lower); }
 };
 
-/// Curves with ascending and different parameters. Nothing with fewer than two curves or two points.
+/// Curves with ascending and different parameters. Nothing with fewer than two curves or two
+/// points.
 std::optional<BestParameter> best_parameter(std::span<const ModelCurve> curves,
                                             std::span<const RotationPoint> measured);
 

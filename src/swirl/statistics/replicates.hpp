@@ -122,8 +122,8 @@ inline Between between_seeds(std::span<const Estimate> runs, std::span<const dou
             trace * trace / trace_of_square};
 }
 
-/// `weights` has one value per run, or is empty: then all runs count the same. A run with the weight
-/// 0 is left out.
+/// `weights` has one value per run, or is empty: then all runs count the same. A run with the
+/// weight 0 is left out.
 inline Ensemble ensemble(std::span<const Estimate> given, std::span<const double> weights = {}) {
     Ensemble all;
     std::vector<Estimate> runs;

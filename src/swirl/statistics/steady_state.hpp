@@ -173,8 +173,8 @@ struct DifferenceError {
     double variance, freedom, effective_samples;
 };
 /// The error of the difference between the mean of the first `at` residuals and the mean of the
-/// others, with one variance for all and with one for each part. A straight line was subtracted from
-/// each part, which costs two degrees of freedom.
+/// others, with one variance for all and with one for each part. A straight line was subtracted
+/// from each part, which costs two degrees of freedom.
 struct DifferenceErrors {
     DifferenceError joint, separate;
 };

@@ -120,7 +120,8 @@ void validate_range(std::int64_t from, std::int64_t to);
 /// `to`, if so many particles fit; otherwise the number with a packing fraction of 0.75, since a
 /// denser placement takes seconds or fails. At least `from`, which may not fit either.
 std::int64_t most_that_fit(const RunConfig& config, std::int64_t from, std::int64_t to);
-/// Reduces the end of the range to most_that_fit(), and a default end to a packing fraction of 0.75.
+/// Reduces the end of the range to most_that_fit(), and a default end to a packing fraction of
+/// 0.75.
 void fit_range(CrossingSettings& settings);
 /// "up to N = 42; more spheres …"; empty if the range is the one asked for.
 std::string range_words(const CrossingSettings& settings);

@@ -349,8 +349,8 @@ class MapSearch {
         return rules;
     }
 
-    /// The end of the range of numbers of discs at this site. If not even the smallest number fits, the
-    /// runs fail and say so.
+    /// The end of the range of numbers of discs at this site. If not even the smallest number fits,
+    /// the runs fail and say so.
     std::int64_t end_of_numbers(const MapSite& s) const {
         try {
             const RunConfig here = resolve(plan_.parameters(point_of(s, 0, 0)));

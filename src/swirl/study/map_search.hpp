@@ -12,11 +12,11 @@
 // errors (certain_sign) of the level, the number of runs doubles, up to the plan's `replicas`. If
 // it is still within three errors then, it is undetermined.
 //
-// N_c. At each site the number of discs is a further axis, and N_c is searched as by `swirl crossing`
-// (statistics/crossing_search.hpp), but with runs of equal length: the coarse scan has five numbers
-// of discs, and more runs double their number. A site between others begins next to the N_c of
-// these instead. Its range ends at the largest number that fits there. A cell is halved if the verdicts differ, one is undecided, or N_c differs by more
-// than `change`.
+// N_c. At each site the number of discs is a further axis, and N_c is searched as by `swirl
+// crossing` (statistics/crossing_search.hpp), but with runs of equal length: the coarse scan has
+// five numbers of discs, and more runs double their number. A site between others begins next to
+// the N_c of these instead. Its range ends at the largest number that fits there. A cell is halved
+// if the verdicts differ, one is undecided, or N_c differs by more than `change`.
 //
 // Growth. A plan may get further values of its axes, more replicas (sweep_plan.hpp) and, for N_c,
 // further numbers of discs. The search then repeats that of the smaller plan, and continues with

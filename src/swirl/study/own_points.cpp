@@ -16,8 +16,8 @@
 namespace swirl {
 namespace {
 
-/// A mark is read at the beginning and at the end, each to about a twelfth of a turn, like the hour on
-/// a clock.
+/// A mark is read at the beginning and at the end, each to about a twelfth of a turn, like the hour
+/// on a clock.
 const double reading_error = std::sqrt(2.0) / 12.0;
 
 /// The columns of a table of own points.

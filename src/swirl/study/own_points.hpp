@@ -1,15 +1,15 @@
-// My points next to the model: a table of rotations that were counted or measured at a real dish, and
-// the curves of a sweep.
+// My points next to the model: a table of rotations that were counted or measured at a real dish,
+// and the curves of a sweep.
 //
 // The table has a row for each number of particles, and one of these sets of columns:
 //
-//     N, turns, circles            turns of the cluster, negative against the swirl, in circles of the
-//                                  dish
+//     N, turns, circles            turns of the cluster, negative against the swirl, in circles of
+//                                  the dish
 //     N, turns, time               the same in seconds, if the duration of a circle is known
 //     N, rate, error               ϖ/Ω and its standard error
 //
-// Turns have the error of reading a mark twice to a twelfth of a turn, unless a column `error` gives
-// another one, in turns.
+// Turns have the error of reading a mark twice to a twelfth of a turn, unless a column `error`
+// gives another one, in turns.
 #pragma once
 
 #include <optional>

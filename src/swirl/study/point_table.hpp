@@ -1,10 +1,10 @@
 // A table of points for a sweep: which runs does it describe?
 //
-// A row is a point. A column is a parameter, or `seeds`, the number of replicates of each row. A row
-// with the parameter `seed` has that seed and the following ones; the seeds of other rows follow
-// from their parameters, as in a product of lists. A table that grows gets further rows, and further
-// replicates of the rows that it has. Parameters that were given for all rows hold for further rows,
-// too.
+// A row is a point. A column is a parameter, or `seeds`, the number of replicates of each row. A
+// row with the parameter `seed` has that seed and the following ones; the seeds of other rows
+// follow from their parameters, as in a product of lists. A table that grows gets further rows, and
+// further replicates of the rows that it has. Parameters that were given for all rows hold for
+// further rows, too.
 #pragma once
 
 #include <cstdint>
@@ -35,8 +35,8 @@ void validate_rows(const SweepPlan& plan, const std::vector<std::string>& where 
 /// for two rows with the same run.
 SweepPlan make_plan(std::vector<PointRow> rows, const ParameterTexts& common);
 
-/// The plan with further rows and replicates of rows. Throws UsageError, also if the rows or `common`
-/// contradict the common parameters of the plan.
+/// The plan with further rows and replicates of rows. Throws UsageError, also if the rows or
+/// `common` contradict the common parameters of the plan.
 SweepPlan grown(const SweepPlan& plan, std::vector<PointRow> rows, const ParameterTexts& common,
                 const std::vector<std::string>& measure);
 

@@ -77,8 +77,8 @@ std::string checksum_of_series(const std::string& series) {
     return fmt::format("{:016x}", checksum(series));
 }
 
-/// The first of the other files of a point with a result that is missing or not whole: its final state
-/// in a chain, its trajectory, its series. "" if all are whole.
+/// The first of the other files of a point with a result that is missing or not whole: its final
+/// state in a chain, its trajectory, its series. "" if all are whole.
 std::string damaged_part(const fs::path& folder, const SweepPlan& plan, std::size_t point) {
     const RunFiles files = files_of_point(folder, plan, point);
     if (!plan.chain.empty() && !find_final_state(folder, plan, point))

@@ -332,8 +332,8 @@ void validate_whole_number(const char* option, std::int64_t value, std::int64_t 
                                      option, value, least, most));
 }
 
-// Finds errors of single values, and of the rows of a table. Errors of combinations of values appear
-// when the point runs.
+// Finds errors of single values, and of the rows of a table. Errors of combinations of values
+// appear when the point runs.
 void validate(const SweepPlan& plan) {
     validate_whole_number("--seeds", plan.replicas, 1, max_replicas);
     for (const std::int64_t row : plan.row_replicas)

@@ -1,5 +1,5 @@
-// The plan of a sweep: the product of lists of parameters, with some replicas of each; or a table of
-// points, each with its own number of replicas (point_table.hpp).
+// The plan of a sweep: the product of lists of parameters, with some replicas of each; or a table
+// of points, each with its own number of replicas (point_table.hpp).
 //
 // Growth. A plan accepts further values of its parameters, further replicas and further
 // measurements. Existing points keep their numbers and results; new points get the next numbers.
@@ -75,7 +75,8 @@ struct SweepPlan {
     int generation = 1;  // increases with every addition of measurements
     std::vector<SweepStage> before = {};
     std::optional<MapTarget> map = {};  // only for an adaptive map
-    /// Only for a search for N_c (search_folder.hpp), which chooses points, seeds and lengths of runs.
+    /// Only for a search for N_c (search_folder.hpp), which chooses points, seeds and lengths of
+    /// runs.
     bool search = false;
     /// For each point, its index in the product of the axes (of a table: its row), with the replica
     /// varying fastest. Empty if the index is the number of the point. Follows from the other
