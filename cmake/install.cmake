@@ -41,6 +41,13 @@ install(TARGETS swirl)
 install(TARGETS swirl-commands RUNTIME DESTINATION libexec/swirl)
 install(DIRECTORY paper DESTINATION ${CMAKE_INSTALL_DATADIR}/swirl FILES_MATCHING
   PATTERN *.py PATTERN *.j2 PATTERN tests EXCLUDE)
+if(has_documents)
+  install(FILES ${compressed_pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  install(FILES ${documents_folder}/swirl.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
+          RENAME swirl)
+  install(FILES ${documents_folder}/_swirl DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
+  install(FILES ${documents_folder}/swirl.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
+endif()
 install(FILES README.md CHANGELOG.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright)
 install(DIRECTORY docs examples DESTINATION ${CMAKE_INSTALL_DOCDIR}

@@ -127,14 +127,15 @@ set_source_files_properties(src/swirl/run/version.cpp PROPERTIES COMPILE_DEFINIT
 set(command_list ${PROJECT_SOURCE_DIR}/src/swirl/cli/command_list.hpp)
 set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${command_list})
 
-# What commands share: all files except those of the commands, of `swirl`, and of the three libraries below.
+# What commands share: all files except those of the commands, of the three libraries below, and those with a main().
 file(GLOB cli_sources CONFIGURE_DEPENDS src/swirl/cli/*.cpp)
 file(GLOB command_sources CONFIGURE_DEPENDS src/swirl/cli/command_*.cpp track/cli/command_*.cpp)
 list(FILTER command_sources EXCLUDE REGEX "/command_line.cpp$")
 set(study_sources src/swirl/cli/sweep_tables.cpp)
 set(drawing_sources src/swirl/cli/appearance_options.cpp src/swirl/cli/source_options.cpp)
 set(camera_sources track/cli/recorded_path.cpp track/cli/tracked_video.cpp)
-list(FILTER cli_sources EXCLUDE REGEX "/(swirl|sweep_tables|appearance_options|source_options).cpp$")
+list(FILTER cli_sources EXCLUDE REGEX
+  "/(swirl|main|documents|sweep_tables|appearance_options|source_options).cpp$")
 list(REMOVE_ITEM cli_sources ${command_sources})
 
 # swirl_cli_library(NAME LINKED_LIBRARIES SOURCES...)
@@ -155,6 +156,11 @@ endif()
 add_library(swirl_cli_experiment INTERFACE)
 target_link_libraries(swirl_cli_experiment INTERFACE swirl_cli swirl_track_experiment)
 
+# main() of every command.
+add_library(swirl_main OBJECT src/swirl/cli/main.cpp)
+target_link_libraries(swirl_main PRIVATE swirl_cli)
+swirl_settings(swirl_main -O1)
+
 # `swirl` uses the standard library only.
 add_executable(swirl src/swirl/cli/swirl.cpp src/swirl/run/version.cpp src/swirl/run/programs.cpp
   src/swirl/run/names.cpp src/swirl/io/short_values.cpp src/swirl/io/system_calls.cpp)
@@ -165,10 +171,9 @@ target_compile_definitions(swirl PRIVATE SWIRL_HAS_DRAWING=$<BOOL:${has_drawing}
 swirl_settings(swirl -O1)
 swirl_compiled_at_once(swirl)
 
-# In packages, one program contains all commands, so that they contain the layers once.
-add_executable(swirl-commands)
-target_link_libraries(swirl-commands PRIVATE ${shared_layers})
 set(command_programs)
+set(command_objects)
+set(command_libraries ${shared_layers})
 file(STRINGS ${command_list} rows REGEX "^    {\"")
 foreach(row ${rows})
   string(REGEX MATCH "{\"([^\"]*)\", \"[^\"]*\", \"([^\"]*)\"" matched ${row})
@@ -194,12 +199,15 @@ foreach(row ${rows})
   add_library(swirl_command_${name} OBJECT ${source})
   target_link_libraries(swirl_command_${name} PRIVATE swirl_cli ${libraries})
   swirl_settings(swirl_command_${name} -O1)
-  add_executable(${program} $<TARGET_OBJECTS:swirl_command_${name}>)
+  add_executable(${program} $<TARGET_OBJECTS:swirl_main> $<TARGET_OBJECTS:swirl_command_${name}>)
   target_link_libraries(${program} PRIVATE ${libraries} swirl_cli)
-  target_sources(swirl-commands PRIVATE $<TARGET_OBJECTS:swirl_command_${name}>)
-  target_link_libraries(swirl-commands PRIVATE ${libraries} swirl_cli)
   list(APPEND command_programs ${program})
+  list(APPEND command_objects $<TARGET_OBJECTS:swirl_command_${name}>)
+  list(APPEND command_libraries ${libraries} swirl_cli)
 endforeach()
+# In packages, one program contains all commands, so that they contain the layers once.
+add_executable(swirl-commands $<TARGET_OBJECTS:swirl_main> ${command_objects})
+target_link_libraries(swirl-commands PRIVATE ${command_libraries})
 if(SWIRL_TESTS)
   # The tests call every command through `swirl`.
   add_dependencies(swirl ${command_programs})

@@ -9,7 +9,17 @@ import subprocess
 import termios
 import unittest
 
-from program import SOURCE, SWIRL, ProgramTest, commands, help_of, read_text, result_of, swirl
+from program import (
+    SOURCE,
+    SWIRL,
+    ProgramTest,
+    commands,
+    described_options,
+    help_of,
+    read_text,
+    result_of,
+    swirl,
+)
 
 
 def source_folders():
@@ -19,20 +29,6 @@ def source_folders():
             if top == "track" and folder.endswith("track"):
                 folders.remove("tests")
             yield folder, folders, files
-
-
-def described_options(text):
-    """(name, description) of each option in a help text; wrapped lines are joined."""
-    found = []
-    for line in text[: text.index("Examples:")].splitlines():
-        option = re.match(r"  (--[a-z-]+)\b(?:\S| (?! ))*(?:  +(\S.*))?$", line)
-        if option:
-            found.append([option[1], option[2] or ""])
-        elif found and re.match(r" {20,}\S", line):
-            found[-1][1] = (found[-1][1] + " " + line.strip()).strip()
-        elif not line.startswith("  "):
-            found.append(["", ""])  # a heading: later lines do not belong to the option before
-    return [(name, text) for name, text in found if name]
 
 
 def on_terminal(columns, *arguments):

@@ -87,6 +87,20 @@ def help_of(name):
     return swirl("help", name, "all").stdout
 
 
+def described_options(text):
+    """(name, description) of each option in a help text; wrapped lines are joined."""
+    found = []
+    for line in text[: text.index("Examples:")].splitlines():
+        option = re.match(r"  (--[a-z-]+)\b(?:\S| (?! ))*(?:  +(\S.*))?$", line)
+        if option:
+            found.append([option[1], option[2] or ""])
+        elif found and re.match(r" {20,}\S", line):
+            found[-1][1] = (found[-1][1] + " " + line.strip()).strip()
+        elif not line.startswith("  "):
+            found.append(["", ""])  # a heading: later lines do not belong to the option before
+    return [(name, text) for name, text in found if name]
+
+
 def wait_until(happens, process=None):
     """Waits until happens() is true. Fails if the process ends before."""
     begin = time.monotonic()

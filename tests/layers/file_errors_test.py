@@ -13,6 +13,7 @@ SOURCE = os.environ.get(
 # Handlers that do not pass the error on, by file and number in it, with the reason.
 HANDLERS = {
     "src/swirl/cli/main.cpp": "prints the message and ends the program with its exit code",
+    "src/swirl/cli/documents.cpp": "as above",
     "src/swirl/cli/swirl.cpp": "as above, for a call that no command gets",
     "src/swirl/cli/trial_reading.cpp": "a child process, of which only a crash matters",
     "src/swirl/io/journaled_driver.cpp": "the HDF5 library is in between: the message is stored "

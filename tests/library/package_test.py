@@ -173,6 +173,11 @@ class DebianPackages(unittest.TestCase):
             "usr/libexec/swirl/swirl-commands",
             "usr/share/swirl/paper/figures/figure_5b.py",
             "usr/share/doc/swirl/copyright",
+            "usr/share/man/man1/swirl.1.gz",
+            "usr/share/man/man1/swirl-run.1.gz",
+            "usr/share/bash-completion/completions/swirl",
+            "usr/share/zsh/vendor-completions/_swirl",
+            "usr/share/fish/vendor_completions.d/swirl.fish",
         ):
             self.assertIn(path, files)
         for path in ("usr/include", ".a\n", "swirlConfig.cmake"):
@@ -199,6 +204,8 @@ class DebianPackages(unittest.TestCase):
             text=True,
         )
         self.assertEqual(done.returncode, 0, done.stdout)
+        for tag in ("manual-page", "groff-message", "gzip", "whatis"):
+            self.assertNotIn(tag, done.stdout)
 
     def test_apt_can_install_them_together(self):
         self.assertEqual(len(self.packages), 2)

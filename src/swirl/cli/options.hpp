@@ -69,7 +69,10 @@ class Subcommand {
     void explain(std::string text) {
         explanation_ = [text = std::move(text)] { return text; };
     }
-    void explain(std::function<std::string()> text) { explanation_ = std::move(text); }
+    void explain(std::function<std::string()> text) {
+        explanation_ = std::move(text);
+        explanation_is_made_ = true;
+    }
     /// Throws UsageError for a wrong call that the parser cannot recognise. ./swirl calls it before
     /// it installs packages for the action.
     void check(std::function<void()> test) { check_ = std::move(test); }
@@ -81,6 +84,8 @@ class Subcommand {
     std::deque<Option>& options() { return options_; }
     /// A text with a line break at its end, or nothing.
     std::string explanation() const { return explanation_ ? explanation_() + "\n" : ""; }
+    /// Whether the explanation is made when it is shown, so that it belongs to the installation.
+    bool explanation_is_made() const { return explanation_is_made_; }
     const std::string& examples() const { return examples_; }
     void check() const {
         if (check_) check_();
@@ -92,6 +97,7 @@ class Subcommand {
     std::vector<std::string> main_options_, missing_of_run_;
     bool is_divided_ = false;
     std::function<std::string()> explanation_;
+    bool explanation_is_made_ = false;
     std::string examples_;
     std::function<void()> check_, action_;
 };

@@ -200,8 +200,8 @@ void add_to(CLI::App& app, const Subcommand& subcommand, const Listed& is_listed
 }
 
 void set_help_options(CLI::App& app) {
-    app.set_help_flag("-h", "Main options");
-    app.set_help_all_flag("--help", "All options and topics");
+    app.set_help_flag(help_option.name, help_option.description);
+    app.set_help_all_flag(full_help_option.name, full_help_option.description);
     app.formatter(std::make_shared<HelpFormat>());
     app.get_formatter()->column_width(std::min(column_of_descriptions, help_width() / 2));
 }

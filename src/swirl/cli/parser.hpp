@@ -8,6 +8,13 @@ namespace swirl {
 
 class Command;
 
+/// The options of every command that print its help.
+struct HelpOption {
+    const char *name, *description;
+};
+inline constexpr HelpOption help_option{"-h", "Main options"};
+inline constexpr HelpOption full_help_option{"--help", "All options and topics"};
+
 /// The parsed arguments.
 struct Call {
     std::function<void()> check = {};  // throws UsageError for a wrong call
