@@ -17,8 +17,9 @@ install(FILES ${CMAKE_CURRENT_BINARY_DIR}/swirlConfigVersion.cmake DESTINATION $
 # The public headers (docs/reference/cpp.md) have the names that they have in the source tree. All others are
 # below swirl/detail, the second include folder, where the public ones find them.
 set(public_headers
-  swirl/physics/container_path.hpp swirl/physics/event.hpp swirl/physics/initial_state.hpp swirl/physics/snapshot.hpp
-  swirl/engine/paper_scene.hpp swirl/engine/placement.hpp swirl/engine/simulation.hpp swirl/engine/validate.hpp
+  swirl/physics/contact_law.hpp swirl/physics/container_path.hpp swirl/physics/event.hpp
+  swirl/physics/initial_state.hpp swirl/physics/snapshot.hpp swirl/engine/own_law.hpp swirl/engine/paper_scene.hpp
+  swirl/engine/placement.hpp swirl/engine/simulation.hpp swirl/engine/validate.hpp
   swirl/statistics/block_average.hpp swirl/measure/cluster_rotation.hpp swirl/measure/measurement_list.hpp)
 foreach(layer math physics engine statistics measure)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/src src/swirl/${layer}/*.hpp)
