@@ -262,7 +262,7 @@ class MovieTest(InFolder):
         """The images of the browser page, which docs/how-to/browser_page.md makes with one
         command."""
         with open(os.path.join(SOURCE, "web", "test", "screenshots.mjs"), encoding="utf-8") as file:
-            states = re.findall(r'^    \["(\w+)", "', file.read(), re.MULTILINE)
+            states = re.findall(r'^    \[\s*"(\w+)",\s*"', file.read(), re.MULTILINE)
         return {f"lab_{state}.png" for state in states}
 
     def test_images_are_made_by_the_documented_commands(self):

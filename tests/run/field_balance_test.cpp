@@ -251,7 +251,7 @@ TEST(RigidRotation, IsTheEquilibriumOfPerfectlyRoughDiscs) {
     // A contact transfers ± a few tenths of the pressure, so the error of the mean of 30,000 is
     // about a hundredth of it.
     EXPECT_NEAR(mean.torque, 0.0, 0.02 * mean.pressure);
-    EXPECT_LT(row_of(fields, "fields.spin_residual").mean, 1e-13);
+    EXPECT_LT(row_of(fields, "spin_residual").mean, 1e-13);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace swirl {
 namespace {
@@ -26,9 +27,12 @@ std::vector<ProposedRun> CrossingSearch::next() {
     const Crossing found = crossing();
     if (const Numbers beyond = beyond_the_scan(found); !beyond.empty())
         return runs_at("coarse scan", beyond);
+    plan_signs(found);
+    plan_bracket(found);
     Numbers more;
-    for (const auto& [n, length] : planned_lengths(found)) {
-        begin_round(groups_[n], length);
+    for (auto& [n, group] : groups_) {
+        if (group.wanted == 0.0) continue;
+        begin_round(group);
         more.insert(n);
     }
     return runs_at("more runs", more);
@@ -70,13 +74,16 @@ std::vector<RotationPoint> CrossingSearch::curve(std::size_t rate) const {
     return points;
 }
 
+bool CrossingSearch::takes_part(const SignChange& change, std::int64_t number, const Group& group) {
+    return !group.finished.empty() && change.before <= double(number) &&
+           double(number) <= change.after;
+}
+
 CrossingSearch::Numbers CrossingSearch::decisive_numbers(const Crossing& crossing) const {
     const SignChange* const change = crossing.last();
     Numbers numbers;
     for (const auto& [n, group] : groups_)
-        if (!group.finished.empty() &&
-            (!change || (change->before <= double(n) && double(n) <= change->after)))
-            numbers.insert(n);
+        if (change ? takes_part(*change, n, group) : !group.finished.empty()) numbers.insert(n);
     return numbers;
 }
 
@@ -137,57 +144,43 @@ CrossingSearch::Numbers CrossingSearch::beyond_the_scan(const Crossing& crossing
     return numbers;
 }
 
-/// The lengths that the groups need that get more runs.
-std::map<std::int64_t, double> CrossingSearch::planned_lengths(const Crossing& crossing) const {
-    std::map<std::int64_t, double> lengths;
-    add_signs(crossing, lengths);
-    add_bracket(crossing, lengths);
-    return lengths;
-}
-
 /// Step 3, numbers outside of the brackets.
-void CrossingSearch::add_signs(const Crossing& crossing,
-                               std::map<std::int64_t, double>& lengths) const {
+void CrossingSearch::plan_signs(const Crossing& crossing) {
     for (const double discs : crossing.undetermined) {
         const bool in_bracket =
             std::any_of(crossing.changes.begin(), crossing.changes.end(),
                         [&](const SignChange& c) { return c.before < discs && discs < c.after; });
-        const auto n = std::int64_t(discs);
-        const Group& group = groups_.find(n)->second;
+        Group& group = groups_.find(std::int64_t(discs))->second;
         const double most = rules_.sign_length * double(rules_.seeds);
         if (in_bracket || !has_rounds_left(group) || double(group.length) >= most) continue;
         const Estimate e = combined(group, rules_.rate).estimate;
         // At least twice as long, since a mean may be large by chance.
         const double factor = std::max(2.0, squared(planned_sign * e.error / e.mean));
-        lengths[n] = double(group.length) * std::min(factor, growth);
+        group.wanted = double(group.length) * std::min(factor, growth);
     }
 }
 
 /// Step 3, the bracket of N_c.
-void CrossingSearch::add_bracket(const Crossing& crossing,
-                                 std::map<std::int64_t, double>& lengths) const {
+void CrossingSearch::plan_bracket(const Crossing& crossing) {
     const SignChange* const change = crossing.last();
     if (!change || !change->resolved() || is_within_tolerance(crossing)) return;
-    const Numbers bracket = decisive_numbers(crossing);
-    const Line line = line_through(bracket);
+    const Line line = line_in(*change);
     const double below = std::clamp(std::floor(line.zero), change->before, change->after - 1.0);
     const double share = std::clamp(line.zero - below, 0.0, 1.0);
     const double unit = line.variance / squared(line.slope);  // the length that gives the error 1
-    const auto length_of = [&](double n) {
-        const auto found = groups_.find(std::int64_t(n));
-        return found == groups_.end() ? 0.0 : double(found->second.length);
-    };
+    double made = 0.0;
+    for (const auto& [number, group] : groups_)
+        if (double(number) == below || double(number) == below + 1.0) made += double(group.length);
     // The error that was found may exceed the planned one.
-    const double made = length_of(below) + length_of(below + 1.0);
-    const double total = margin * std::max(unit / squared(rules_.tolerance),
-                                           made * squared(crossing.error / rules_.tolerance));
-    for (const std::int64_t number : bracket) {
+    const double total =
+        margin * std::max(unit, made * squared(crossing.error)) / squared(rules_.tolerance);
+    for (auto& [number, group] : groups_) {
+        if (!takes_part(*change, number, group)) continue;
         const double n = double(number), distance = std::fabs(n - line.zero);
         double wanted = n == below ? (1.0 - share) * total : n == below + 1.0 ? share * total : 0.0;
         if (distance > 0.5) wanted = std::max(wanted, unit * squared(planned_sign / distance));
         wanted = std::min(wanted, total);
-        if (wanted > length_of(n) && has_rounds_left(groups_.find(number)->second))
-            lengths[number] = wanted;
+        if (wanted > double(group.length) && has_rounds_left(group)) group.wanted = wanted;
     }
 }
 
@@ -198,34 +191,36 @@ double CrossingSearch::own_error(const Group& group) const {
     return all.disagree || !(all.within > 0.0) ? all.estimate.error : all.within;
 }
 
-/// The line of the plan, by weighted least squares. Numbers without an error have none.
-CrossingSearch::Line CrossingSearch::line_through(const Numbers& numbers) const {
-    double weight = 0.0, n = 0.0, mean = 0.0, squares = 0.0, length = 0.0;
-    struct Point {
-        double n, mean, weight;
-    };
-    std::vector<Point> points;
-    for (const std::int64_t number : numbers) {
-        const Group& group = groups_.find(number)->second;
+/// The line of the plan. If the errors of too few numbers are known, it is the one through both ends.
+CrossingSearch::Line CrossingSearch::line_in(const SignChange& change) const {
+    double sum = 0.0, of_n = 0.0, of_mean = 0.0, of_square = 0.0, of_product = 0.0;
+    double variance = 0.0, length = 0.0, first = 0.0, last = 0.0;
+    for (const auto& [number, group] : groups_) {
+        if (!takes_part(change, number, group)) continue;
         const Estimate e = combined(group, rules_.rate).estimate;
-        const double T = double(group.length);
-        if (!(e.error > 0.0) || std::isinf(e.error)) continue;
-        points.push_back({double(number), e.mean, 1.0 / squared(e.error)});
-        weight += points.back().weight;
-        n += points.back().weight * double(number);
-        mean += points.back().weight * e.mean;
-        squares += T * T * squared(own_error(group));
+        const double n = double(number) - change.before, T = double(group.length);
+        if (n == 0.0) first = e.mean;
+        last = e.mean;
+        if (!(e.error > 0.0 && e.error < std::numeric_limits<double>::infinity())) continue;
+        const double weight = 1.0 / squared(e.error);
+        sum += weight;
+        of_n += weight * n;
+        of_mean += weight * e.mean;
+        of_square += weight * n * n;
+        of_product += weight * n * e.mean;
+        variance += squared(T * own_error(group));
         length += T;
     }
-    n /= weight;
-    mean /= weight;
-    double spread = 0.0, common = 0.0;
-    for (const Point& p : points) {
-        spread += p.weight * squared(p.n - n);
-        common += p.weight * (p.n - n) * (p.mean - mean);
-    }
-    const double slope = common / spread;
-    return {.slope = slope, .zero = n - mean / slope, .variance = squares / length};
+    if (length > 0.0) variance /= length;
+    const double spread = sum * of_square - of_n * of_n;
+    const double slope = (sum * of_product - of_n * of_mean) / spread;
+    if (slope < 0.0)
+        return {.slope = slope,
+                .zero = change.before + (of_n - of_mean / slope) / sum,
+                .variance = variance};
+    return {.slope = (last - first) / (change.after - change.before),
+            .zero = change.discs,
+            .variance = variance};
 }
 
 bool CrossingSearch::has_rounds_left(const Group& group) const {
@@ -237,11 +232,13 @@ bool CrossingSearch::is_within_tolerance(const Crossing& crossing) const {
     return crossing.verdict != Crossing::Verdict::undecided;
 }
 
-/// Plans a batch after which the group has this length, if that is at most `growth` times as long.
-void CrossingSearch::begin_round(Group& group, double length) const {
+/// Plans a batch after which the group has the length `wanted`, if that is at most `growth` times as
+/// long.
+void CrossingSearch::begin_round(Group& group) const {
     ++group.rounds;
     group.scatters = group.scatters || !rules_.longer_runs || combined(group, rules_.rate).disagree;
-    const double factor = length / double(group.length);
+    const double factor = group.wanted / double(group.length);
+    group.wanted = 0.0;
     const double missing = (factor > last_step ? std::min(caution * factor, growth) : factor) - 1.0;
     const auto at_least_one = [](double x) { return std::int64_t(std::ceil(std::max(x, 1.0))); };
     if (group.scatters) {

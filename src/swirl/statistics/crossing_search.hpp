@@ -102,6 +102,7 @@ class CrossingSearch {
         std::int64_t failed = 0;
         /// Length of all finished runs, in that of a first run.
         std::int64_t length = 0;
+        double wanted = 0.0;         // the length that the plan wants; 0 if it is long enough
         std::int64_t next_runs = 0;  // runs of the next batch, and the length of each
         std::int64_t next_length = 1;
         int rounds = 0;         // batches after the first runs
@@ -145,14 +146,15 @@ class CrossingSearch {
     Numbers coarse_numbers() const;
     Numbers missing_in_brackets() const;
     Numbers beyond_the_scan(const Crossing& crossing) const;
-    std::map<std::int64_t, double> planned_lengths(const Crossing& crossing) const;
-    void add_signs(const Crossing& crossing, std::map<std::int64_t, double>& lengths) const;
-    void add_bracket(const Crossing& crossing, std::map<std::int64_t, double>& lengths) const;
+    void plan_signs(const Crossing& crossing);
+    void plan_bracket(const Crossing& crossing);
     bool has_rounds_left(const Group& group) const;
     bool is_within_tolerance(const Crossing& crossing) const;
     double own_error(const Group& group) const;
-    Line line_through(const Numbers& numbers) const;
-    void begin_round(Group& group, double length) const;
+    /// True if the group has a run and is in this bracket.
+    static bool takes_part(const SignChange& change, std::int64_t number, const Group& group);
+    Line line_in(const SignChange& change) const;
+    void begin_round(Group& group) const;
     std::vector<ProposedRun> runs_at(const char* stage, const Numbers& numbers);
 
     CrossingRules rules_;
