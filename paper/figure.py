@@ -12,11 +12,12 @@ from paper.curves import write_table
 class Figure:
     """`points(settings)` lists study.Point; `table(points, settings)` returns ({ending: rows},
     findings), where the ending "" is that of the table figure_NAME.csv; `draw(file)` draws this
-    table to PNG and PDF next to it."""
+    table to PNG and PDF next to it. The first three are literal strings without keywords, since
+    catalogue.ENTRY reads them from the text of the file."""
 
     name: str
     group: str  # one of catalogue.GROUPS
-    description: str  # one line
+    description: str  # one line; its first words select one of captions.SECTIONS
     points: Callable
     table: Callable
     draw: Optional[Callable] = None

@@ -361,7 +361,12 @@ class Drawings(unittest.TestCase):
 
     def test_every_figure_has_a_table(self):
         names = {figure.name for figure in catalogue.named(["all"]) if figure.draw}
-        self.assertEqual(names, set(TABLES) | CHAPTERS | {"2c", "5b-start", "5b-steady"})
+        self.assertEqual(
+            names,
+            set(TABLES) | CHAPTERS | {"2c", "5b-start", "5b-steady"},
+            "a figure needs a small table in TABLES, which tests its drawing; a chapter, its name "
+            "in CHAPTERS",
+        )
 
     def test_figures_with_the_same_columns_share_a_drawing(self):
         for name, other in (("2c", "2b"), ("5b-start", "5b"), ("5b-steady", "5b")):

@@ -1,5 +1,5 @@
 """The table of every figure has its columns, and its drawings exist. They are drawn from the tables
-alone (paper_test.py). Those of the chapters are in tests/python/chapters_test.py."""
+alone (drawings_test.py). Those of the chapters are in chapters_test.py."""
 
 import os
 import unittest

@@ -386,7 +386,10 @@ class Figures(HandMadeTables):
         self.assertGreater(len(figures), 50)
         for figure in figures:
             about = {"name": figure.name, "caption": figure.caption}
-            self.assertTrue(captions.caption_of(about) or captions.question_of(about), figure.name)
+            self.assertTrue(
+                captions.caption_of(about) or captions.question_of(about),
+                f"figure '{figure.name}' needs a caption in its file",
+            )
 
     def test_findings_are_not_repeated(self):
         a = self.figure(

@@ -1,6 +1,7 @@
 """The list of commands in `swirl --help` is that of docs/reference/commands.md, each command has
 its help, and `swirl` reports a command that it does not have."""
 
+import glob
 import os
 import re
 import shutil
@@ -41,7 +42,27 @@ def all_helps(**more):
 class Commands(unittest.TestCase):
     def test_the_page_lists_every_command(self):
         listed = re.findall(r"^\| `swirl ([a-z-]+)` \|", read_text(PAGE), re.MULTILINE)
-        self.assertEqual(sorted(listed), sorted([*commands(), *SCRIPTS]))
+        self.assertEqual(
+            sorted(listed),
+            sorted([*commands(), *SCRIPTS]),
+            "each row of src/swirl/cli/command_list.hpp needs one in docs/reference/commands.md",
+        )
+
+    def test_every_command_in_a_file_has_a_row(self):
+        """A file without a row is in no program, and no compiler reports it."""
+        files = [
+            file
+            for folder in ("src/swirl/cli", "track/cli")
+            for file in glob.glob(os.path.join(SOURCE, folder, "command_*.cpp"))
+        ]
+        registered = re.findall(
+            r'^const Command \w+\(\s*"([a-z-]+)"', "\n".join(map(read_text, files)), re.MULTILINE
+        )
+        self.assertEqual(
+            sorted(registered),
+            sorted(commands()),
+            "each command needs a row in src/swirl/cli/command_list.hpp",
+        )
 
     def test_help_uses_the_words_of_the_glossary(self):
         for title, help_text in all_helps():

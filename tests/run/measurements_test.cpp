@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <tuple>
 
 #include "io/scratch.hpp"
 #include "run/measured_run.hpp"
+#include "swirl/measure/measurement_list.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/period_series.hpp"
@@ -192,13 +194,10 @@ TEST(Measurements, DiffusionHasLagsBelowAPeriodAndOfWholePeriods) {
 }
 
 TEST(Measurements, ListOfAllHasEveryMeasurement) {
-    EXPECT_THAT(
-        everything(),
-        ElementsAre("density", "flow", "profile", "pinned", "residence", "centre", "slip",
-                    "frustration", "radial", "temperature", "order", "packing", "segregation",
-                    "collisions", "wall", "diffusion", "energy", "torque", "rolling",
-                    "pair_correlation", "velocity_correlation", "velocity_distribution",
-                    "contact_network", "collision_angles", "fluctuations", "fields"));
+    const std::vector<std::string> rows = std::apply(
+        [](const auto&... row) { return std::vector<std::string>{row.name...}; }, measurement_list);
+    EXPECT_EQ(everything(), rows);
+    EXPECT_GT(rows.size(), 20u);
 }
 
 TEST(Measurements, OneDiscIsMeasuredWithoutACrash) {
@@ -287,7 +286,8 @@ TEST(Measurements, EveryRowAndTableIsInTheJsonInTheCsvAndInTheHelp) {
                       terminal = measured_text(reports),
                       docs = text_of(fs::path(SWIRL_SOURCE_DIR) / "docs/reference/measurements.md");
     for (const auto& [name, report] : reports) {
-        EXPECT_THAT(docs, HasSubstr("\n### " + name + "\n"));
+        EXPECT_TRUE(docs.find("\n### " + name + "\n") != std::string::npos)
+            << "docs/reference/measurements.md has no section '### " << name << "'";
         for (const ReportRow& row : report.rows) {
             const std::string full = name + "." + row.name;
             EXPECT_TRUE(json.at(name).contains(row.name)) << full;

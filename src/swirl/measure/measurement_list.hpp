@@ -1,6 +1,6 @@
 // All measurements, one row each: the name, the header with the definition, and one line of
-// description. The command line, JSON, CSV and docs/reference/measurements.md are generated from
-// this list. sampling.hpp lists the functions that a measurement can have and when they are called.
+// description. The command line, JSON, CSV and Python follow this list; measurements.md is written
+// by hand. sampling.hpp lists the functions of a measurement and when they are called.
 #pragma once
 
 #include <tuple>
