@@ -191,7 +191,8 @@ double CrossingSearch::own_error(const Group& group) const {
     return all.disagree || !(all.within > 0.0) ? all.estimate.error : all.within;
 }
 
-/// The line of the plan. If the errors of too few numbers are known, it is the one through both ends.
+/// The line of the plan. If the errors of too few numbers are known, it is the one through both
+/// ends.
 CrossingSearch::Line CrossingSearch::line_in(const SignChange& change) const {
     double sum = 0.0, of_n = 0.0, of_mean = 0.0, of_square = 0.0, of_product = 0.0;
     double variance = 0.0, length = 0.0, first = 0.0, last = 0.0;
@@ -232,8 +233,8 @@ bool CrossingSearch::is_within_tolerance(const Crossing& crossing) const {
     return crossing.verdict != Crossing::Verdict::undecided;
 }
 
-/// Plans a batch after which the group has the length `wanted`, if that is at most `growth` times as
-/// long.
+/// Plans a batch after which the group has the length `wanted`, if that is at most `growth` times
+/// as long.
 void CrossingSearch::begin_round(Group& group) const {
     ++group.rounds;
     group.scatters = group.scatters || !rules_.longer_runs || combined(group, rules_.rate).disagree;
