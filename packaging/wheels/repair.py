@@ -99,7 +99,10 @@ def main(wheel, folder):
                     archive.write(
                         file, f"{os.path.dirname(info)}/licenses/{name}/{os.path.basename(file)}"
                     )
-        print(repaired(complete, folder))  # writes the list of files again
+        # This writes the list of files again. The folder may have wheels of other Pythons.
+        second = repaired(complete, pathlib.Path(temporary, "second"))
+        os.makedirs(folder, exist_ok=True)
+        print(shutil.move(second, os.path.join(folder, second.name)))
 
 
 if __name__ == "__main__":
