@@ -37,8 +37,7 @@ def make_and_track(video, made, tracks, tracked):
 def print_table(folder):
     print(
         "| video | frames with all discs | identity swaps per 1000 | rms, pixels | Ω | centre, "
-        "pixels "
-        "| amplitude, pixels | radius |"
+        "pixels | amplitude, pixels | radius |"
     )
     print("|---|---|---|---|---|---|---|---|")
     for name, options in VIDEOS:

@@ -3,7 +3,7 @@
 set(has_documents OFF)
 find_program(gzip_program gzip)
 if(CMAKE_CROSSCOMPILING OR SKBUILD OR SWIRL_FUZZ OR SWIRL_THREAD_SANITIZE)
-  # The build cannot run the program that writes them, or nobody installs them.
+  # The build cannot run the program that writes them, or no package installs them.
 elseif(NOT gzip_program)
   message(STATUS "gzip was not found: this build has no manual pages and completions")
 else()

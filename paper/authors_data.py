@@ -222,8 +222,7 @@ def report(rows, maps):
         middle = np.median([abs(row["theirs"] - row["ours"]) for row in here])
         print(
             f"| {name} | {count} | {middle:.4f} | {size:.2f} | {number(crossing(here, 'theirs'))} "
-            "| "
-            f"{number(crossing(here, 'ours', SEEDS))} |"
+            f"| {number(crossing(here, 'ours', SEEDS))} |"
         )
     for (kind, discs), (_, _, z) in maps.items():
         size, count = rms(z)

@@ -202,8 +202,7 @@ class Curve:
             )
         return (
             f"{verdict}; {'highest' if counterrotates else 'lowest'} is ϖ/Ω = "
-            f"{with_error(*nearest[1:])} at "
-            f"N = {nearest[0]:.0f} ({words})"
+            f"{with_error(*nearest[1:])} at N = {nearest[0]:.0f} ({words})"
         )
 
     def other_rates(self):
@@ -274,8 +273,7 @@ def sign_changes_sentence(curve):
     discs, mean, error = lowest_of(curve.points)
     return (
         f"its sign changes {'once' if times == 1 else f'{times} times'}: {changes}{undetermined}; "
-        "lowest is ϖ/Ω = "
-        f"{with_error(mean, error)} at N = {discs:.0f} "
+        f"lowest is ϖ/Ω = {with_error(mean, error)} at N = {discs:.0f} "
         f"({RATE_WORDS[curve.rate]}).{curve.other_rates()}"
     )
 

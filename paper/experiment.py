@@ -272,8 +272,7 @@ def contents(folder, about, videos, figures):
         (
             "text",
             f"Results from {len(videos)} video{'s' if len(videos) != 1 else ''} of a swirled "
-            f"container.{runs} ± is "
-            "one standard error, from the scatter between periods.",
+            f"container.{runs} ± is one standard error, from the scatter between periods.",
         ),
         ("bullets", about["findings"]),
         ("section", "Videos"),

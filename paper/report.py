@@ -48,8 +48,7 @@ INTRODUCTION = (
     "Rubinstein (Phys. Rev. E 100, 012903, 2019) explain this by friction and geometric "
     "frustration. Their statements are "
     "tested by exact event-driven simulations: those about the experiment on spheres that roll on "
-    "a floor, those about the "
-    "simulation on discs."
+    "a floor, those about the simulation on discs."
 )
 ABSTRACT_WORDS = 120
 
@@ -126,8 +125,7 @@ def how_to_read(about):
     seeds = about.get("seeds_of_a_point", 8)
     quick = (
         " This is the quick version, with fewer points and seeds than the full study. So errors "
-        "are larger. A claim "
-        "whose points are missing is undecided."
+        "are larger. A claim whose points are missing is undecided."
         if about["quick"]
         else ""
     )
@@ -137,12 +135,10 @@ def how_to_read(about):
         "coefficient (μ_d between discs, μ_w at the wall). ± is one standard error: the larger of "
         "the errors from "
         "within the runs and from between the seeds. A claim is decided with a probability of "
-        "99.73 %, that of "
-        f"three standard deviations. With {seeds} seeds this needs "
+        f"99.73 %, that of three standard deviations. With {seeds} seeds this needs "
         f"{verdicts.threshold(seeds - 1):.1f} standard "
         "errors. The sign of an effect alone does not decide a claim; the text of each claim gives "
-        "the required "
-        "size. An undecided claim gets up to "
+        "the required size. An undecided claim gets up to "
         f"{about.get('max_seeds_of_a_point', 32)} seeds at the points that could decide it. "
         "Verdicts are computed "
         "from the tables by the rules in paper/verdicts.py. Every other number on which a verdict "

@@ -88,7 +88,7 @@ def dish_points(settings, dishes):
         made.append(
             Point(
                 settings,
-                f"dish_R{R:g}_A{dish.amplitude:g}_N{discs}_" f"{length_of(run)}",
+                f"dish_R{R:g}_A{dish.amplitude:g}_N{discs}_{length_of(run)}",
                 settings.chapter_seeds,
                 run,
                 work=fluctuating_run,

@@ -320,8 +320,7 @@ def failures(points):
     one = len(reasons) == 1
     return [
         f"{len(reasons)} run{'' if one else 's'} failed and {'is' if one else 'are'} omitted: "
-        f"{first_few(words)}. "
-        f"{'Reason' if one else 'Reason of the first'}: {reasons[0]}"
+        f"{first_few(words)}. {'Reason' if one else 'Reason of the first'}: {reasons[0]}"
     ]
 
 
@@ -339,14 +338,12 @@ def remarks(points):
             f"Steady state not verified after the warm-up: {sum(kinds)} of {count('runs')} runs "
             f"({kinds[0]} "
             f"drifting, {kinds[1]} jumping, {kinds[2]} switching between two states, {kinds[3]} "
-            "too short for "
-            "the test). They are marked in the figure and in its table."
+            "too short for the test). They are marked in the figure and in its table."
         )
     if count("too_short_to_average"):
         found.append(
             f"{count('too_short_to_average')} of them have fewer than {combine.min_periods():g} "
-            "periods after "
-            "their warm-up. They count only at points where no run is longer."
+            "periods after their warm-up. They count only at points where no run is longer."
         )
     disagreeing = [point.name for point in points if at(point.result, "seeds", "disagree")]
     if disagreeing:

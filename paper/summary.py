@@ -30,8 +30,7 @@ NO_TABLE = (FileNotFoundError, IndexError, KeyError)
 # The claims that choose the sentences.
 TRANSITION = claim_stating(
     "With friction at the wall and between the discs the cluster rotates with the swirl at low N "
-    "and "
-    "counterrotates at high N."
+    "and counterrotates at high N."
 )
 ORDER = claim_stating(
     "The lower the friction, the higher the N at which the direction of rotation changes."
@@ -47,8 +46,7 @@ SPIN = claim_stating("The spin of the particles along the wall in the pinned reg
 TITLE = claim_stating("Geometric frustration induces counterrotation.")
 GAS = claim_stating(
     "Without disc friction the cluster is loose and gas-like: in the paper's 10^6 events, from the "
-    "start until "
-    "it condenses."
+    "start until it condenses."
 )
 GAS_AFTER = claim_stating(
     "Without disc friction the cluster is loose and gas-like: in the steady state, after that."
@@ -101,14 +99,12 @@ def transition_found(study):
     change = change_of(study.crossing("5b", "high"))
     claim = (
         "with friction at the wall and between the discs (μ = 1) few discs rotate with the swirl "
-        "and many "
-        "against it"
+        "and many against it"
     )
     return statement(
         judgement,
         "With friction at the wall and between the discs (μ = 1), few discs rotate with the swirl "
-        "and many against "
-        f"it ({values}); the direction changes {change}.",
+        f"and many against it ({values}); the direction changes {change}.",
         f"The claim that {claim} is not confirmed: {values}; the direction changes {change}.",
         f"Whether {claim} is undecided: {values}; the direction changes {change}.",
     )
@@ -176,8 +172,7 @@ def condensation_found(study):
     rotates = every([above(measured(row, "after_mean_by_time"), LEAST_ROTATION) for row in rows])
     claim = (
         "without friction between the discs the cluster is a gas at first and then condenses into "
-        "a crystal that "
-        "rotates with the swirl"
+        "a crystal that rotates with the swirl"
     )
     found = f"ϖ/Ω = {min(after):.3f} to {max(after):.3f}, after {times}"
     return statement(
@@ -226,8 +221,7 @@ def predictions_found(study):
         "With the assumed restitution and floor friction: that the slip parameter of pinned "
         "spheres rises from about 0.5 to nearly 1 "
         f"{ANSWERS.get(slip.verdict, 'is not confirmed')} ({slips}); that their spin at the wall "
-        "falls "
-        f"{ANSWERS.get(spin.verdict, 'is not confirmed')} ({spins}, in Ω)."
+        f"falls {ANSWERS.get(spin.verdict, 'is not confirmed')} ({spins}, in Ω)."
     )
 
 
@@ -247,14 +241,12 @@ def frustration_found(study):
         )
         parts.append(
             f"for {body} {ANSWERS.get(induces, 'is not confirmed')} (ϖ/Ω {free} if they can spin, "
-            f"{stopped} "
-            "if they cannot)"
+            f"{stopped} if they cannot)"
         )
     claim = "geometric frustration induces counterrotation"
     words = (
         f"That stopped spins induce it without friction between particles {' and '.join(parts)}. "
-        "That neighbours stop "
-        "them as frustrated gears is a claim of its own (figure 4b)."
+        "That neighbours stop them as frustrated gears is a claim of its own (figure 4b)."
     )
     return statement(
         title,

@@ -119,8 +119,7 @@ def main():
     if len(groups) > MAX_CURVES:
         sys.exit(
             f"error: the sweep would have {len(groups)} curves, but at most {MAX_CURVES} can be "
-            "distinguished.\n"
-            "hint: draw a part of the table."
+            "distinguished.\nhint: draw a part of the table."
         )
     drawing, axes = style.figure()
     for k, (values, points) in enumerate(groups.items()):

@@ -578,11 +578,9 @@ def findings(rows, crossings, ranks):
             f"N_c of {body} is {n_c(**both, cannot_spin=0)} if they spin, "
             f"{n_c(**both, cannot_spin=1)} if they cannot, and "
             f"{n_c(**both | {'mu_disc': 0}, cannot_spin=1)} if they cannot and have no friction "
-            "between them. If they can "
-            f"spin and have no friction between them, ϖ/Ω = "
+            f"between them. If they can spin and have no friction between them, ϖ/Ω = "
             f"{rotation_words(rows, body=body, spins='free', contacts='none between particles')}. "
-            "If they cannot spin and "
-            "the wall is smooth, ϖ/Ω = "
+            "If they cannot spin and the wall is smooth, ϖ/Ω = "
             f"{rotation_words(rows, body=body, spins='stopped', contacts='none at the wall')}."
         )
     best = [row for row in ranks if row["group"] == "discs and spheres"]
@@ -710,7 +708,6 @@ FIGURES = [
         "friction. The load is the normal impulse that neighbours exchange, divided by that of the "
         "wall. Eight "
         "seeds; three to five where particles collide many times more often, in dishes of bearings "
-        "and at smooth "
-        "walls. The table has their number, and the verdict on each steady state.",
+        "and at smooth walls. The table has their number, and the verdict on each steady state.",
     )
 ]

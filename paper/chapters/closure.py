@@ -68,8 +68,7 @@ def closure_table(points, settings):
         )
         findings.append(
             f"The {relation.words} is certainly positive in {len(certain)} of {fits} ranges of the "
-            "packing "
-            f"fraction{explained or ''}."
+            f"packing fraction{explained or ''}."
         )
     return {"": rows}, findings
 

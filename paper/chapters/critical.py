@@ -218,8 +218,7 @@ def scaling_tables(all_changes):
         )
         findings.append(
             f"A/R = {amplitude:g}, {kind} ({len(changes)} sizes): {verdict}; exponents of R/r: "
-            f"{exponents}, "
-            f"of the slope in the largest {min(LAST_SIZES, len(changes))} "
+            f"{exponents}, of the slope in the largest {min(LAST_SIZES, len(changes))} "
             f"{with_error(*last['slope'][:2])}; largest "
             f"slope {with_error(abs(changes[-1]['slope']), changes[-1]['slope_error'])}, its limit "
             f"{with_error(*limits['slope'][:2])} (χ² {limits['slope'][2]:.1f}, of the power law "

@@ -114,8 +114,7 @@ def fields_table(points, settings):
         f"R/r = {radius}, N = {point.cells['discs']}, {len(seeds)} seeds: Γ(curl u − 2ω) explains "
         "this share of the torque "
         f"of the stress, by packing fraction: {'; '.join(words)}. Largest residual of the balances "
-        "of mass, momentum and "
-        f"spin, relative to rounding errors: {residual:.1g}."
+        f"of mass, momentum and spin, relative to rounding errors: {residual:.1g}."
     ]
 
 

@@ -102,8 +102,7 @@ def table(points, settings):
         )
     return {"": rows}, [
         f"{loop}, ramp of {parameter}: most certain difference of the branches, down minus up, in "
-        "ϖ/Ω: "
-        f"{'; '.join(words for words, _ in found)}; "
+        f"ϖ/Ω: {'; '.join(words for words, _ in found)}; "
         f"{'' if found[-1][1] else 'no certain '}hysteresis at the slowest ramp."
         for (loop, parameter), found in findings.items()
     ]

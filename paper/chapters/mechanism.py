@@ -90,8 +90,7 @@ def torque_table(points, settings):
     zero, _ = last_zero(curves_by(points, "curve")[0].points)
     return {"": rows_without_curve(points, measured)}, [
         f"The rotation changes sign at {zero or 'no certain N'}. {len(words)} of {len(TORQUES)} "
-        "torques change sign "
-        f"with N: {'; '.join(words) or 'none'}."
+        f"torques change sign with N: {'; '.join(words) or 'none'}."
     ]
 
 

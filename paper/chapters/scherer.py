@@ -92,8 +92,7 @@ def sentence(words, rows):
     falls = [row["discs"] for row in rows[1:-1] if sign(row, "slope") < 0]
     return (
         f"{words}: dE/dN is certainly positive at {count(1)} N with rotation and at {count(-1)} "
-        "with counterrotation; "
-        f"it is certainly negative at N = {listed(falls) or 'none'}."
+        f"with counterrotation; it is certainly negative at N = {listed(falls) or 'none'}."
     )
 
 

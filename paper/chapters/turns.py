@@ -220,7 +220,6 @@ FIGURES = [
         caption="Spheres of the experiment in the M-frame. Orange: normal force of the wall. Blue: "
         "normal "
         "forces between neighbours. Line widths are forces, averaged over 0.12 periods. Round "
-        "arrows: spins; a "
-        "free bearing (7.5 Ω) has 300°. All panels have the same scales.",
+        "arrows: spins; a free bearing (7.5 Ω) has 300°. All panels have the same scales.",
     )
 ]

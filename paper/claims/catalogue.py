@@ -90,7 +90,7 @@ CLAIMS = [
         "spheres",
         on_spheres(
             rotation.passage,
-            f"rotating: more than {size.LEAST_ROTATION} Ω; stalling: ϖ is 0 " "within its error",
+            f"rotating: more than {size.LEAST_ROTATION} Ω; stalling: ϖ is 0 within its error",
         ),
         SPHERES,
         FEW_AND_MANY,
@@ -115,7 +115,7 @@ CLAIMS = [
     ),
     of_spheres(
         "main text, Fig. 1b",
-        "With growing N the cluster behaves increasingly like a pancake that rolls on the " "wall.",
+        "With growing N the cluster behaves increasingly like a pancake that rolls on the wall.",
         "1b",
         rotation.pancake,
         f"nearer, and at the end within {size.NEAR_PANCAKE} Ω",
@@ -352,7 +352,7 @@ CLAIMS = [
     ),
     Claim(
         "main text, Fig. 4c",
-        "The rougher the particles, the lower the N at which the direction of rotation " "changes.",
+        "The rougher the particles, the lower the N at which the direction of rotation changes.",
         "spheres_friction",
         spheres.friction_order,
         SPHERES,
@@ -494,8 +494,7 @@ CLAIMS = [
         "",
         by_construction(
             "The collision law leaves no other way: without friction no collision of two discs "
-            "changes a spin. A "
-            "simulation with this law cannot fail the test."
+            "changes a spin. A simulation with this law cannot fail the test."
         ),
         NOTHING,
     ),

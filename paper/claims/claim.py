@@ -111,8 +111,7 @@ class Claim:
         if events < self.least_events:
             return (
                 f"Not decided by runs of {events:,.0f} events, which cover less of the transient "
-                "than the paper's of "
-                f"{self.least_events:,.0f}"
+                f"than the paper's of {self.least_events:,.0f}"
             )
         return ""
 

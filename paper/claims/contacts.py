@@ -68,8 +68,7 @@ def slip_rough(study, setting):
         "s of those that reside at the wall is closer to 1 with more friction, on average over N "
         f"by {number(mean)}; "
         f"closer for certain at {count([above(gain, 0) for gain in gains])} of {len(gains)} N, "
-        "farther for certain at "
-        f"{count([below(gain, 0) for gain in gains])}"
+        f"farther for certain at {count([below(gain, 0) for gain in gains])}"
     )
 
 
@@ -80,8 +79,7 @@ def wall_spin(study, setting):
         f"⟨|ω|⟩/Ω of those that reside at the wall is {ends(rows, 'resident_spin')}{reversal}; of "
         "those pinned there by "
         f"the SI's criterion {ends(rows, 'pinned_wall_spin')}; the share of the contacts that "
-        "belong to a triangle is "
-        f"{ends(rows, 'triangles')}"
+        f"belong to a triangle is {ends(rows, 'triangles')}"
     )
 
 
@@ -95,8 +93,7 @@ def gears(study, setting):
     opposed = [below(v, size.ANTIFERROMAGNETIC) for v in values(rows, "chain_correlation")]
     return combined(*opposed), (
         f"at {count(opposed)} of {len(opposed)} N; correlation of the spins of pairs that touch "
-        "and have no common neighbour "
-        f"{ends(rows, 'chain_correlation')} (over all N "
+        f"and have no common neighbour {ends(rows, 'chain_correlation')} (over all N "
         f"{lowest_to_highest(rows, 'chain_correlation')}), of all pairs "
         f"that touch {ends(rows, 'spin_correlation')}, in collisions, weighted by impulse, "
         f"{ends(rows, 'correlation_by_impulse')}"
@@ -131,8 +128,7 @@ def prevented_from_rolling(study, setting):
         ]
     ), (
         f"share of those at the wall that roll on the floor {ends(rows, 'wall_rolling_share')} "
-        "(over all N "
-        f"{lowest_to_highest(rows, 'wall_rolling_share')}), of all spheres "
+        f"(over all N {lowest_to_highest(rows, 'wall_rolling_share')}), of all spheres "
         f"{ends(rows, 'rolling_share')}"
     )
 
@@ -154,8 +150,7 @@ def more_collisions(study, setting):
     growth = found[-1] * (1 / found[0].mean)
     return rises(found, size.LEAST_CHANGE * found[0].mean), (
         f"a particle collides {number(growth)} times as often at N = {rows[-1]['discs']:.0f} as at "
-        "N = "
-        f"{rows[0]['discs']:.0f}"
+        f"N = {rows[0]['discs']:.0f}"
     )
 
 
@@ -166,6 +161,5 @@ def six_fold(study, setting):
         "share of those pinned by the SI's criterion, without those at the wall, that have six "
         "neighbours "
         f"{ends(rows, 'six_pinned')}; of all away from the wall {ends(rows, 'six')}; hexatic order "
-        "ψ6 of the pinned, "
-        f"including those at the wall, {ends(rows, 'psi6_pinned')}"
+        f"ψ6 of the pinned, including those at the wall, {ends(rows, 'psi6_pinned')}"
     )

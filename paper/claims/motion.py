@@ -50,10 +50,8 @@ def left_of_M(study, setting):
         every([below(v, -size.LEFT_SHIFT) for v in values(rows, "centre_x")]),
     ), (
         f"share left of the line from C to M {ends(rows, 'left')}; x of the centre of mass, in "
-        "radii, "
-        f"{ends(rows, 'centre_x')}; it lags behind the swirl by {lag[0]:.0f}° at N = "
-        f"{rows[0]['discs']:.0f} and "
-        f"{lag[-1]:.0f}° at N = {rows[-1]['discs']:.0f}"
+        f"radii, {ends(rows, 'centre_x')}; it lags behind the swirl by {lag[0]:.0f}° at N = "
+        f"{rows[0]['discs']:.0f} and {lag[-1]:.0f}° at N = {rows[-1]['discs']:.0f}"
     )
 
 
@@ -78,8 +76,7 @@ def forces(study, setting):
         f"the centrifugal force reaches {number(found['centrifugal'])} cm/s² on average over N; "
         "its limit, on a "
         f"particle that touches the wall at M, is (R − r + A)Ω² = {farthest:.1f}. The Coriolis "
-        "force reaches "
-        f"{number(found['coriolis'])}; on average it is {number(mean)}, and about "
+        f"force reaches {number(found['coriolis'])}; on average it is {number(mean)}, and about "
         f"{2 * radius * EXPERIMENT_R_OMEGA_SQUARED:.0f} on a particle that moves with the wall"
     )
 
@@ -205,8 +202,7 @@ def outer_spins(study):
         f"{size.LEAST_CHANGE:.0%}); correlation of the spins of discs that touch: "
         + ", ".join(f"{number(c)} at N = {n}" for n, c in zip(NUMBERS, coherence))
         + f" (no coherence: within ±{-size.ANTIFERROMAGNETIC:.3f}). The same wall accelerates the "
-        "spin of all discs, so they "
-        "spin in one direction."
+        "spin of all discs, so they spin in one direction."
     )
 
 
@@ -252,8 +248,7 @@ def shortest_times(study):
         if events == EVENTS
         else (
             f", estimated from runs of {events:,.0f} events (the shortest of n times falls as 1/n, "
-            "except without "
-            "friction, because discs become faster all the time)"
+            "except without friction, because discs become faster all the time)"
         )
     )
     return combined(*agree), (
@@ -296,8 +291,7 @@ def blow_up(study):
         "the second tenth to "
         f"the last, the energy grows by {number(growth(SIDES))} of its mean on {SIDES} sides, by "
         f"{number(growth(6))} on 6 and by {number(growth(0))} on the true circle (it blows up: "
-        f"more than {size.GROWTH}); "
-        f"this program does {'' if crashed else 'not '}crash."
+        f"more than {size.GROWTH}); this program does {'' if crashed else 'not '}crash."
     )
 
 
@@ -321,8 +315,7 @@ def slipping_ball(study):
         "Without friction the ball receives no torque and keeps the spin that it started with. "
         "The runs start "
         f"without spin, so that γ = {gammas[0].mean:.3f} for ever; with the start that the paper's "
-        "γ = 0 implies, it "
-        "would be 0. No simulation decides it."
+        "γ = 0 implies, it would be 0. No simulation decides it."
     )
 
 
@@ -340,6 +333,5 @@ def ball_near_m(study):
         + f"; M is at {M_ANGLE:.0f}° (near: within {size.NEAR_M:.0f}°; to the left: by more than "
         f"{size.LEFT_OF_M:.0f}°). A ball "
         "that turns uniformly has no torque, hence no friction, and only at M does the normal "
-        "force alone balance "
-        "the centrifugal force."
+        "force alone balance the centrifugal force."
     )

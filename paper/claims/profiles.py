@@ -69,8 +69,7 @@ def identity(study, setting):
     agreement = "as they must" if worst < IDENTICAL else "which they must not"
     return (
         " (Eq. 1, ϖ_M = ϖ − Ω, is an identity and not counted as a claim: these runs differ from "
-        "it by at most "
-        f"{worst:.2g} Ω, {agreement})"
+        f"it by at most {worst:.2g} Ω, {agreement})"
     )
 
 
@@ -171,12 +170,10 @@ def loose_peak(study, setting):
     (first, peak, few), (last, other, many) = found[0], found[-1]
     return every(similar), (
         f"peak of |⟨ϖ_M⟩| above Ω {number(few[0])} Ω at θ = {peak['theta']:.0f}° for N = "
-        f"{first:.0f}, "
-        f"{number(many[0])} Ω at {other['theta']:.0f}° for N = {last:.0f}; within "
+        f"{first:.0f}, {number(many[0])} Ω at {other['theta']:.0f}° for N = {last:.0f}; within "
         f"{PEAK_WINDOW:.0f}° of the peak the "
         f"shapes differ from their mean by up to {number(max(apart, key=lambda v: v.mean))} Ω on "
-        "average (allowed: "
-        f"{allowed:.3f} Ω)"
+        f"average (allowed: {allowed:.3f} Ω)"
     )
 
 
@@ -216,8 +213,7 @@ def pinned_decides(study, setting):
         f"from N = {numbers[0]:.0f} to {numbers[-1]:.0f} ⟨ϖ_M⟩/Ω changes by "
         f"{number(Value(total))}: by "
         f"{number(pinned)} because pinned particles are faster, by {number(loose)} because loose "
-        "ones are, and by "
-        f"{number(Value(share))} because more are pinned"
+        f"ones are, and by {number(Value(share))} because more are pinned"
     )
 
 
@@ -258,16 +254,14 @@ def oblong(study, setting):
             as_fast.append(within(fast, (1 - size.SIMILAR) * speed, (1 + size.SIMILAR) * speed))
             words.append(
                 f"where they {event} (θ = {there['theta']:.0f}°) {away.mean / distance:.2f} times "
-                "as "
-                f"far and {fast.mean / speed:.2f} times as fast"
+                f"as far and {fast.mean / speed:.2f} times as fast"
             )
         text.append(f"at N = {discs:.0f}, {' and '.join(words)}")
     return combined(every(slower), every(farther), every(as_fast)), (
         f"relative to the centre of mass, compared with the average over θ, {text[0]}; {text[-1]}; "
         "at both angles and "
         f"all N ({len(farther)} cases) |⟨ϖ_M⟩| is certainly below average in {count(slower)}, the "
-        "distance above in "
-        f"{count(farther)}, the speed similar in {count(as_fast)}"
+        f"distance above in {count(farther)}, the speed similar in {count(as_fast)}"
     )
 
 
@@ -322,8 +316,7 @@ def layers(study, setting):
     ), (
         "number density of the centres in the pinned region, per r², at a gap to the wall of "
         f"{FIRST_LAYER[0]:g} to {FIRST_LAYER[1]:g}, {BETWEEN_LAYERS[0]:g} to {BETWEEN_LAYERS[1]:g} "
-        "and "
-        f"{SECOND_LAYER[0]:g} to {SECOND_LAYER[1]:g} radii: "
+        f"and {SECOND_LAYER[0]:g} to {SECOND_LAYER[1]:g} radii: "
         + "; ".join(
             f"{', '.join(map(number, densities))} at N = {discs}"
             for discs, densities in found.items()

@@ -64,8 +64,7 @@ def choices_in_words(choices):
     layers, lengths = sorted({c[0] for c in choices}), sorted({c[1] for c in choices})
     return (
         f"{len(choices)} choices of the layer ({layers[0]:g} to {layers[-1]:g} radii from the "
-        "wall) and of the "
-        f"shortest residence ({lengths[0]:.2f} to {lengths[-1]:.2f} periods)"
+        f"wall) and of the shortest residence ({lengths[0]:.2f} to {lengths[-1]:.2f} periods)"
     )
 
 
@@ -119,8 +118,7 @@ def pinned_earlier(study, setting):
         f"residences at the wall begin at θ = {ends(rows, 'residence_begin')} (degrees); this "
         "angle moves upstream by "
         f"{number(upstream_shift(rows, 'residence_begin'))}°, and by {span_over_choices(shifts)}° "
-        "with the "
-        f"{choices_in_words(choices)}; by the SI's sharp turns {ends(rows, 'pinning')}"
+        f"with the {choices_in_words(choices)}; by the SI's sharp turns {ends(rows, 'pinning')}"
     )
 
 
@@ -134,16 +132,13 @@ def free_fixed(study, setting):
     same = [below(s, size.SAME_ANGLE) for s in spreads]
     return agreed(same), (
         f"residences at the wall end at θ = {ends(rows, 'residence_end')} (degrees; resultant "
-        "length "
-        f"{resultants(rows, 'residence_end_resultant')}); over all N this angle moves by "
+        f"length {resultants(rows, 'residence_end_resultant')}); over all N this angle moves by "
         f"{number(spread(rows, 'residence_end'))}°, and by {span_over_choices(spreads)}° with the "
         f"{choices_in_words(choices)}; certainly at the same location with {count(same)} of them, "
-        "certainly at "
-        f"different ones with {count(same, FAILS)}; by the SI's criterion "
+        f"certainly at different ones with {count(same, FAILS)}; by the SI's criterion "
         f"{ends(rows, 'depinning')}, with resultants "
         f"{resultants(rows, 'depinning_resultant')}, as it also counts those that move along the "
-        "wall far from it"
-        f"{two_locations(study, setting, 'si_depinning')}"
+        f"wall far from it{two_locations(study, setting, 'si_depinning')}"
     )
 
 

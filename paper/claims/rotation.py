@@ -61,8 +61,7 @@ def minimum(study, setting):
     lowest, last, rise = after_minimum(rows, rate)
     text = (
         f"ϖ/Ω is lowest before the end with {value_at(lowest, rate)}, and at the end "
-        f"{value_at(last, rate)}, "
-        f"higher by {number(rise)}"
+        f"{value_at(last, rate)}, higher by {number(rise)}"
     )
     rigid = rate.replace("mean", "rigid")
     if all(rigid in row for row in rows):
@@ -116,8 +115,7 @@ def passage(study, setting):
     still = [row for row in rows if stalls(measured(row, rate)).verdict == HOLDS]
     return combined(one_passage(found), any_holds(stalls(v) for v in found)), (
         f"certainly rotating at {len(rotating)} N, the last of them {last_of(rotating)}, certainly "
-        "counterrotating at "
-        f"{len(against)}, the first of them {last_of(against[:1])}; stalling at "
+        f"counterrotating at {len(against)}, the first of them {last_of(against[:1])}; stalling at "
         f"{', '.join(value_at(row, rate) for row in still) or 'none'}"
     )
 
@@ -240,8 +238,7 @@ def steady(study, setting):
     return combined(overall, fact(False)) if exceptions else overall, (
         f"of {sum(runs):.0f} runs {', '.join(counts)} "
         f"({sum(row['seeds'] for row in rows) - sum(runs):.0f} more are too short for the test), a "
-        "share of "
-        f"{number(found)} if every point has the same weight"
+        f"share of {number(found)} if every point has the same weight"
         + (
             "; most runs are not steady at "
             f"{', '.join(str(row.get('point', row['discs'])) for row in exceptions)}"
@@ -263,8 +260,7 @@ def near_omega(rows, bound, where):
     worst = max(rows, key=lambda row: abs(row["mean_by_event"] - 1))
     return every(inside), (
         f"{where}ithin {100 * bound:.0f} % of Ω for certain at {count(inside)} of {len(rows)} N, "
-        "outside for "
-        f"certain at {count(inside, FAILS)}; the largest difference is at "
+        f"outside for certain at {count(inside, FAILS)}; the largest difference is at "
         f"{value_at(worst, 'mean_by_event')} ({PROTOCOL})."
     )
 
@@ -287,8 +283,7 @@ def never_crosses(setting):
         rotating = [above(v, -size.LEAST_ROTATION) for v in values(rows, "mean_by_event")]
         return every(rotating), (
             f"ϖ/Ω is certainly not below −{size.LEAST_ROTATION} at {count(rotating)} of "
-            f"{len(rows)} N from "
-            f"{rows[0]['discs']:.0f} to {rows[-1]['discs']:.0f}; the lowest is "
+            f"{len(rows)} N from {rows[0]['discs']:.0f} to {rows[-1]['discs']:.0f}; the lowest is "
             f"{value_at(lowest, 'mean_by_event')}."
         )
 

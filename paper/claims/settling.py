@@ -16,8 +16,7 @@ def rigid(study, setting):
         *(every([below(a, size.RIGID), below(a - b, 0)]) for a, b in zip(resident, loose))
     ), (
         f"a rigid motion leaves {ends(rows, 'rigid_resident')} of the velocities of those that "
-        "reside at the wall, in ΩR, and "
-        f"{ends(rows, 'rigid_loose')} of those of loose ones"
+        f"reside at the wall, in ΩR, and {ends(rows, 'rigid_loose')} of those of loose ones"
     )
 
 
@@ -25,8 +24,7 @@ def settles(study, setting):
     rows = study.curve("settling", setting=setting)
     return every([above(v, size.MULTIPLE) for v in values(rows, "encounters")]), (
         f"{ends(rows, 'encounters')} encounters in the quarter period before a residence begins; "
-        "two or more before a share of "
-        f"{ends(rows, 'two_encounters')}"
+        f"two or more before a share of {ends(rows, 'two_encounters')}"
     )
 
 

@@ -130,8 +130,7 @@ def snake(study):
             for row in rows
         )
         + f". A line that rolls with the swirl has ϖ/Ω within {size.NEAR_OMEGA} of 1 and a share "
-        "above "
-        f"{size.ALMOST_ALL}."
+        f"above {size.ALMOST_ALL}."
     )
 
 
@@ -257,6 +256,5 @@ def substrate(study):
         "Smooth spheres, ϖ/Ω: "
         + "; ".join(f"{words}: {at_dense(rotations)}" for words, rotations in found.items())
         + ". An ingredient is not critical if spheres counterrotate without it. The paper's discs "
-        "counterrotate "
-        "without a floor, but with I = 10 m r², which no disc or sphere has."
+        "counterrotate without a floor, but with I = 10 m r², which no disc or sphere has."
     )

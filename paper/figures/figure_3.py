@@ -89,8 +89,7 @@ def pinning_findings(point):
     pin, depin, pinned, little = words("pinned")
     return [
         f"{where}, residences in the wall layer: they begin at θ = {begin}° and end at {end}° "
-        "(resultant "
-        f"{resultant:.2f}); {share} of the discs reside there.",
+        f"(resultant {resultant:.2f}); {share} of the discs reside there.",
         f"{where}, the SI's criterion: they pin at θ = {pin}° and depin at {depin}° (resultant "
         f"{little:.2f}: the mean "
         f"of directions that nearly cancel has little meaning); {pinned} of the discs are pinned.",

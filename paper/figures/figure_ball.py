@@ -91,8 +91,7 @@ def table(points, settings):
         if cells["ball_radius"] == REPORTED_RADIUS and cells["mu"] in (0, 1):
             findings.append(
                 f"A disc of radius {REPORTED_RADIUS:g}, μ = {cells['mu']:g}, e = "
-                f"{cells['restitution']:g}: γ = "
-                f"{with_error(gamma, error)} (γ_c = {no_slip:.3f})."
+                f"{cells['restitution']:g}: γ = {with_error(gamma, error)} (γ_c = {no_slip:.3f})."
             )
     return {"": rows}, findings
 

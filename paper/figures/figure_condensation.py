@@ -114,8 +114,7 @@ def table(points, settings):
             f"μ_d = 0, N = {N}: "
             + (
                 f"{len(found)} of {len(runs)} runs condense, after {with_error(mean, error)} "
-                f"periods ({min(waiting)} to "
-                f"{longest})."
+                f"periods ({min(waiting)} to {longest})."
                 if found
                 else f"none of {len(runs)} runs condenses within {longest} periods."
             )

@@ -49,8 +49,7 @@ def table(points, settings):
         f"{LAST_N} discs certainly counterrotate at "
         f"{sum(mean < -CERTAIN * error for _, mean, error in rates)} of "
         f"{len(points)} pairs of friction coefficients; lowest is ϖ/Ω = {with_error(*lowest[1:])} "
-        "at "
-        f"μ_d = {text(at['mu_disc'])}, μ_w = {text(at['mu_wall'])}."
+        f"at μ_d = {text(at['mu_disc'])}, μ_w = {text(at['mu_wall'])}."
     ]
 
 

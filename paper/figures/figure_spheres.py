@@ -68,8 +68,7 @@ def few_table(points, settings):
 
     return {"": rows_of(points, ["residence.share=residence_share"])}, [
         f"{point.cells['discs']} spheres: ϖ/Ω = {words(point, 'rotation', 'mean_by_time')}, share "
-        "resident at the wall "
-        f"{words(point, 'measured', 'residence', 'share')}."
+        f"resident at the wall {words(point, 'measured', 'residence', 'share')}."
         for point in points
     ]
 

@@ -57,8 +57,7 @@ def table(points, settings):
         if found:
             findings.append(
                 f"μ = {point.cells['mu']}, N = {COUNTERROTATING_N}: the shortest time between two "
-                "collisions "
-                f"of a run lies between {min(found):.1g} and {max(found):.1g}."
+                f"collisions of a run lies between {min(found):.1g} and {max(found):.1g}."
             )
     return {"": (rows, ["mu", "discs", "seed", "events", "smallest"])}, findings
 

@@ -68,8 +68,7 @@ def table(points, settings):
             f"μ_d = 0, N = {discs}: ϖ/Ω = {np.mean(varpi[0][:periods // 10]):.3f} in the first "
             f"{periods // 10} periods, "
             f"{np.mean(varpi[0][periods // 2:]):.4f} in the last {periods - periods // 2}, with a "
-            "mean spin of "
-            f"{with_error(spin[0][-1], math.nan)} Ω at the end; 10^6 events last "
+            f"mean spin of {with_error(spin[0][-1], math.nan)} Ω at the end; 10^6 events last "
             f"{reached[0] if reached else f'more than {periods}'} periods."
         )
     return {"": rows}, findings

@@ -356,8 +356,7 @@ class Rotation(HandMadeTables):
         self.assertEqual(verdict, HOLDS)  # the stalling point may be on either side
         self.assertIn(
             "at 2 N, the last of them 28, certainly counterrotating at 2, the first of them 36; "
-            "stalling at "
-            "0.0000 ± 0.0010 at N = 32",
+            "stalling at 0.0000 ± 0.0010 at N = 32",
             found,
         )
         self.assertEqual(judged(0.2, 0.1, -0.1, -0.1)[0], IN_PART)  # it does not stall

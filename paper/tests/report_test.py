@@ -117,8 +117,7 @@ class FirstPage(HandMadeTables):
         )
         self.assertIn(
             "for discs is confirmed (ϖ/Ω 1.0000 ± 0.0010 at N = 48 if they can spin, −0.0060 ± "
-            "0.0010 at N = 48 if "
-            "they cannot) and for spheres is confirmed",
+            "0.0010 at N = 48 if they cannot) and for spheres is confirmed",
             said,
         )
         self.assertNotIn("Correlation", said)
@@ -252,8 +251,7 @@ class FirstPage(HandMadeTables):
             said(-0.07, "crosses"),
             "Few spheres that roll on a floor rotate with the swirl and many "
             "against it, as in the experiment; their direction changes: that of smooth spheres at "
-            "N_c = "
-            "36.10 ± 0.10; that of smooth spheres at A = 5.75 mm at no N for certain (ϖ/Ω is "
+            "N_c = 36.10 ± 0.10; that of smooth spheres at A = 5.75 mm at no N for certain (ϖ/Ω is "
             "lowest at N = 48, 0.100 ± 0.010) (paper: 36 "
             "for smooth, 28 for roughened spheres; each friction coefficient is fitted to it).",
         )
@@ -296,8 +294,7 @@ class FirstPage(HandMadeTables):
             "pinned spheres rises from about 0.5 to nearly 1 is confirmed (0.5000 ± 0.0010 at N = "
             "24, 1.0000 ± 0.0010 at "
             "N = 48); that their spin at the wall falls is confirmed (2.2000 ± 0.0010 at N = 24, "
-            "0.3000 ± "
-            "0.0010 at N = 48, in Ω).",
+            "0.3000 ± 0.0010 at N = 48, in Ω).",
         )
         self.assertIn("nearly 1 is confirmed in part", said((0.7, 0.9, 1.0)))
         self.assertIn("at the wall falls is not confirmed", said((0.5, 0.9, 1.0), (0.3, 0.8, 2.2)))

@@ -381,7 +381,7 @@ class UsageErrors(InFolder):
             ("a.csv", "frame,particle,x,y\n0,0,1,2.5\n1,0,1,2.75\n"),
             (
                 "a.dump",
-                "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\n" "ITEM: ATOMS id x y\n0 1 2.75\n",
+                "ITEM: TIMESTEP\n0\nITEM: NUMBER OF ATOMS\n1\nITEM: ATOMS id x y\n0 1 2.75\n",
             ),
         ):
             for cut in (1, 2):

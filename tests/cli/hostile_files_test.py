@@ -372,8 +372,7 @@ def cut(group, part):
         for name, edit in (
             (
                 "t.h5",
-                "for s in ('step', 'time'):\n"
-                "    rows = f['observables/clock/' + s][()]\n"
+                "for s in ('step', 'time'):\n    rows = f['observables/clock/' + s][()]\n"
                 "    del f['observables/clock/' + s]\n"
                 "    f['observables/clock/' + s] = np.append(rows, rows[-1])",
             ),

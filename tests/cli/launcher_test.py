@@ -781,8 +781,7 @@ cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
     def test_packages_of_a_subcommand_are_installed_once(self):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         self.write(
-            "packages",
-            "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n" "[images]\ng++\n",
+            "packages", "[build]\ng++\n[figures]\nno-painter\n[movies]\nno-camera\n[images]\ng++\n"
         )
         self.stand_in("id", "echo 0\n")
         self.stand_in("apt-get", f'echo "$@" >>{self.path("asked")}\n')

@@ -453,8 +453,7 @@ class Figure(InFolder):
             "few": "mu,amplitude,mean_by_time,mean_by_time_error,verdict,total_periods,replicates,failed\n0,1,0.5,,above,10,1,0\n"
             "1,1,,,failed,,0,2\n",
             "curve": "mu,mean_by_time,mean_by_time_error,verdict,total_periods,replicates,failed\n"
-            "0,0.4,0.1,above,10,2,0\n"
-            "1,-0.4,0.1,below,10,2,0\n",
+            "0,0.4,0.1,above,10,2,0\n1,-0.4,0.1,below,10,2,0\n",
             "N_c": "mu,N_c,N_c_error,N_c_lower,N_c_upper,verdict,total_periods,replicates,failed\n"
             "0.5,40.1,0.2,39.7,40.5,crosses,10,2,0\n0.1,,,,,always rotates,10,2,0\n",
             "N_c map": "mu,amplitude,N_c,N_c_error,N_c_lower,N_c_upper,verdict,total_periods,replicates,failed\n"

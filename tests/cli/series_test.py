@@ -93,8 +93,7 @@ class Series(InFolder):
         ramp = ("run", "--discs", 5, "--ramp", "mu=1:0.5@0..3", "--periods")
         self.assertIn(
             "the run ended after 3.0 periods, but its ramp has its last value in period 3, which "
-            "begins after 3 "
-            "periods",
+            "begins after 3 periods",
             self.run_swirl(*ramp, 3).stderr,
         )
         self.assertNotIn("last value", self.run_swirl(*ramp, 4).stderr)

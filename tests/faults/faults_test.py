@@ -382,8 +382,7 @@ class Faults(unittest.TestCase):
                     reported += 1
         report(
             f"{call[0]}, new fails: {calls} calls, {reported + right + unreported} tried, "
-            f"{reported} "
-            f"reported, {right} correct, {unreported} before main()"
+            f"{reported} reported, {right} correct, {unreported} before main()"
         )
 
     def files(self):

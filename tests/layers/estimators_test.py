@@ -36,7 +36,10 @@ ALLOWED = {
         "examples/custom_measurement.ipynb",
         "scatter",
     ): "shows that the scatter of runs agrees with their errors",
-    ("web/src/engine/estimates.ts", "student"): "the factor for four quarters of the run on display",
+    (
+        "web/src/engine/estimates.ts",
+        "student",
+    ): "the factor for four quarters of the run on display",
 }
 
 

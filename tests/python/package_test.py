@@ -44,8 +44,7 @@ def test_types_are_consistent(cache):
 
 def test_mypy_infers_types_of_results(tmp_path, cache):
     (tmp_path / "use.py").write_text(
-        "import swirl\n"
-        "r = swirl.run(discs=48)\n"
+        "import swirl\nr = swirl.run(discs=48)\n"
         "reveal_type(r.rotation.mean_by_time.mean)\n"
         "reveal_type(swirl.Simulation(discs=3).snapshot().position)\n"
         "r.rotation.by_tim\n"

@@ -1149,7 +1149,7 @@ exec '{shutil.which("ffmpeg")}' "$@"
         tracks, said = changed(
             "hand.mp4",
             "-vf",
-            "drawbox=x=0:y=0:w=110:h=240:color=0x9a8070:t=fill:" "enable='between(n,25,40)'",
+            "drawbox=x=0:y=0:w=110:h=240:color=0x9a8070:t=fill:enable='between(n,25,40)'",
             "-qp",
             "14",
         )
@@ -1162,7 +1162,7 @@ exec '{shutil.which("ffmpeg")}' "$@"
             _, said = changed(
                 option[2:4] + ".mp4",
                 "-vf",
-                "drawbox=x=130:y=0:w=110:h=240:color=0x9a8070:t=fill:" f"enable='{enable}'",
+                f"drawbox=x=130:y=0:w=110:h=240:color=0x9a8070:t=fill:enable='{enable}'",
                 "-qp",
                 "14",
             )

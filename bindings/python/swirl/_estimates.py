@@ -141,8 +141,7 @@ class Estimate:
             raise ValueError(
                 "both estimates are of the same run, so their errors are correlated.\n"
                 "hint: measure the sum or the difference in each period, with a measurement of "
-                "your own "
-                "(docs/how-to/own_measurement.md); or use other seeds."
+                "your own (docs/how-to/own_measurement.md); or use other seeds."
             )
         return dataclasses.replace(
             self._derived(self.mean + sign * other.mean, math.hypot(self.error, other.error)),

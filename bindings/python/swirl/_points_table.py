@@ -17,13 +17,18 @@ def names_of(measure: Optional[Measure], where: str) -> list[str]:
     return names
 
 
+def given_values(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """Without None, which stands for a parameter that is not given."""
+    return {name: value for name, value in parameters.items() if value is not None}
+
+
 def count(name: str, value: object, lowest: int) -> int:
     if isinstance(value, bool) or not hasattr(value, "__index__"):
         raise TypeError(f"{name} is {shown(value)}, but it must be a whole number.")
     number = int(value.__index__())
     if not lowest <= number <= 1_000_000:
         raise ValueError(
-            f"{name} is {number}, but it must be a whole number from {lowest} to " "1000000."
+            f"{name} is {number}, but it must be a whole number from {lowest} to 1000000."
         )
     return number
 

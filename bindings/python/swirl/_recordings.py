@@ -192,8 +192,7 @@ class Tracks(Recording):
         if isinstance(table, (str, bytes)) or not hasattr(table, "__getitem__"):
             raise TypeError(
                 f"table is {shown(table)}, but it must be a DataFrame or a mapping with the "
-                "columns frame, "
-                "particle, x and y.\nhint: read a file with swirl.Tracks.read()."
+                "columns frame, particle, x and y.\nhint: read a file with swirl.Tracks.read()."
             )
         columns = {name: _column(table, name) for name in _COLUMNS}
         for name in ("frame", "particle"):
@@ -374,8 +373,7 @@ def analyse(
     elif camera:
         raise TypeError(
             f"{next(iter(camera))} is given, but only a table of tracks needs it: a recording has "
-            "its own "
-            "scale.\nhint: use swirl.analyse(recording, measure=..., warmup=...)."
+            "its own scale.\nhint: use swirl.analyse(recording, measure=..., warmup=...)."
         )
     if isinstance(recording, _engine.Frames):
         recording = _Sampled(recording)
@@ -424,8 +422,7 @@ def _tracks_of(table: Any, camera: dict[str, Any]) -> Tracks:
         raise TypeError(
             f"a table of tracks needs {' and '.join(missing)}.\n"
             "hint: use swirl.analyse(table, omega=..., container_radius=...); help(swirl.Tracks) "
-            "explains "
-            "all arguments."
+            "explains all arguments."
         )
     arguments = inspect.signature(Tracks).parameters
     unknown = next((name for name in camera if name not in arguments or name == "table"), None)

@@ -70,7 +70,7 @@ class Simulation:
             for name in ("amplitude", "sides", "speed"):
                 if parameters.get(name) is not None:
                     raise ValueError(
-                        f"{name} and a custom path are both given, but both define the " "path."
+                        f"{name} and a custom path are both given, but both define the path."
                     )
         elif path is not None:
             parameters["path"] = path
@@ -245,8 +245,7 @@ class Simulation:
         if self._engine.is_custom:
             raise ValueError(
                 "the page places the discs by the parameters, but this simulation has discs or a "
-                "path of "
-                "its own.\nhint: plot() draws the discs."
+                "path of its own.\nhint: plot() draws the discs."
             )
         return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
 

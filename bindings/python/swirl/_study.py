@@ -19,7 +19,7 @@ from . import _engine
 from ._arguments import file_name, shown, text as checked_text
 from ._files import exists
 from ._optional import optional
-from ._points_table import count, names_of
+from ._points_table import count, given_values, names_of
 from ._results import Result
 from ._runs import Measure, PathName, Progress, call_text, run, split_measure, with_parameters
 from ._sweep_folder import SweepFolder, Values
@@ -385,7 +385,7 @@ def parameter_map(
 
     folder = file_name("out", out)
     count("threads", threads, 0)
-    given = {name: value for name, value in parameters.items() if value is not None}
+    given = given_values(parameters)
     if grow:
         if given or (quantity, level, change, tolerance, rate) != (
             "mean_by_time",
@@ -396,8 +396,7 @@ def parameter_map(
         ):
             raise ValueError(
                 "grow adds values of x and y, seeds and numbers of discs; all else stays as it "
-                "is.\n"
-                "hint: use another folder for another map."
+                "is.\nhint: use another folder for another map."
             )
         _engine.grow_map(
             folder,
@@ -459,12 +458,7 @@ def map_runs(
     progress: Union[bool, Callable[[int, int], object], None] = None,
     **parameters: Values,
 ) -> list[Result]:
-    plan = _engine.Plan(
-        {name: value for name, value in parameters.items() if value is not None},
-        count("seeds", seeds, 1),
-        [],
-        0,
-    )
+    plan = _engine.Plan(given_values(parameters), count("seeds", seeds, 1), [], 0)
     count("threads", threads, 0)
     split_measure(measure)  # raises errors before the first run
     points = plan.points()

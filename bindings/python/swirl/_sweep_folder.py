@@ -9,7 +9,7 @@ from typing import Any, NamedTuple, Optional
 from . import _engine
 from ._arguments import file_name
 from ._files import exists
-from ._points_table import count, names_of, rows_of
+from ._points_table import count, given_values, names_of, rows_of
 from ._runs import Measure, PathName
 
 Values = Any  # one value of a parameter, a list or array of them, or a text: "5:48", "0:0.25:1"
@@ -80,7 +80,7 @@ class SweepFolder:
 
         Raises swirl.Failure if the folder has another plan."""
         rows, names = rows_of(points), names_of(measure, "A sweep")
-        given = {name: value for name, value in parameters.items() if value is not None}
+        given = given_values(parameters)
         _engine.Plan(
             given,
             count("seeds", seeds, 1),
@@ -103,7 +103,7 @@ class SweepFolder:
 
         `seeds` is the new number of replicates of all points, or of the new `points`."""
         rows, names = rows_of(points), names_of(measure, "A sweep")
-        given = {name: value for name, value in parameters.items() if value is not None}
+        given = given_values(parameters)
         replicates = 0 if seeds == 1 else count("seeds", seeds, 1)
         _engine.grow(self._path, given, replicates, names, rows)
 

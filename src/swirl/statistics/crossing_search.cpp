@@ -17,6 +17,12 @@ constexpr double last_step = 1.8, caution = 0.6;
 
 double squared(double x) { return x * x; }
 
+/// The error of a mean without Student's factor. If the replicates disagree, only their scatter is
+/// known to contain everything.
+double plain_error_of(const Ensemble& all) {
+    return all.disagree || !(all.within > 0.0) ? all.estimate.error : all.within;
+}
+
 }  // namespace
 
 std::vector<ProposedRun> CrossingSearch::next() {
@@ -184,13 +190,6 @@ void CrossingSearch::plan_bracket(const Crossing& crossing) {
     }
 }
 
-/// The error of the mean without Student's factor. If the replicates disagree, only their scatter
-/// is known to contain everything.
-double CrossingSearch::own_error(const Group& group) const {
-    const Ensemble all = combined(group, rules_.rate);
-    return all.disagree || !(all.within > 0.0) ? all.estimate.error : all.within;
-}
-
 /// The line of the plan. If the errors of too few numbers are known, it is the one through both
 /// ends.
 CrossingSearch::Line CrossingSearch::line_in(const SignChange& change) const {
@@ -198,7 +197,8 @@ CrossingSearch::Line CrossingSearch::line_in(const SignChange& change) const {
     double variance = 0.0, length = 0.0, first = 0.0, last = 0.0;
     for (const auto& [number, group] : groups_) {
         if (!takes_part(change, number, group)) continue;
-        const Estimate e = combined(group, rules_.rate).estimate;
+        const Ensemble all = combined(group, rules_.rate);
+        const Estimate& e = all.estimate;
         const double n = double(number) - change.before, T = double(group.length);
         if (n == 0.0) first = e.mean;
         last = e.mean;
@@ -209,7 +209,7 @@ CrossingSearch::Line CrossingSearch::line_in(const SignChange& change) const {
         of_mean += weight * e.mean;
         of_square += weight * n * n;
         of_product += weight * n * e.mean;
-        variance += squared(T * own_error(group));
+        variance += squared(T * plain_error_of(all));
         length += T;
     }
     if (length > 0.0) variance /= length;

@@ -150,7 +150,6 @@ class CrossingSearch {
     void plan_bracket(const Crossing& crossing);
     bool has_rounds_left(const Group& group) const;
     bool is_within_tolerance(const Crossing& crossing) const;
-    double own_error(const Group& group) const;
     /// True if the group has a run and is in this bracket.
     static bool takes_part(const SignChange& change, std::int64_t number, const Group& group);
     Line line_in(const SignChange& change) const;
