@@ -6,6 +6,7 @@ without. Each run is repeated, and its shortest time counts.
 
 import argparse
 import resource
+import shutil
 import subprocess
 
 RUN = ["run", "--discs", "48", "--periods", "120", "--warmup", "0", "--quiet"]
@@ -44,6 +45,8 @@ def main():
     parser.add_argument("program")
     parser.add_argument("--repeats", type=int, default=3)
     call = parser.parse_args()
+    if not shutil.which(call.program):
+        parser.error(f"there is no program '{call.program}'.")
     names = names_of(call.program)
     plain = seconds(call.program, [], call.repeats)
     lists = {name: name for name in names}

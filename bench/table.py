@@ -73,7 +73,11 @@ def main(files):
     if not files or files[0] in ("-h", "--help"):
         print(__doc__.strip())
         return 0 if files else 2
-    found = read(files)
+    try:
+        found = read(files)
+    except OSError as error:
+        print(f"error: '{error.filename}': {error.strerror}.", file=sys.stderr)
+        return 2
     first = next(iter(found.values()))[0]
     print(
         f"{first['machine']}, swirl {first['version']}, `{first['command']}`"

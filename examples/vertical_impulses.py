@@ -82,4 +82,7 @@ if __name__ == "__main__":
             "error: vertical_impulses.py takes one event log.\nhint: "
             + __doc__.split("\n\n")[1].strip()
         )
-    main(sys.argv[1])
+    try:
+        main(sys.argv[1])
+    except (OSError, KeyError) as error:
+        sys.exit(f"error: '{sys.argv[1]}' is not an event log of swirl: {error}.")

@@ -25,14 +25,30 @@ def load_package():
 
 
 load_package()
-from paper import console, optional_file  # noqa: E402
+from paper import console  # noqa: E402
+
+
+def scripts():
+    """The names of the modules with a function main()."""
+    found = []
+    for file in os.listdir(FOLDER):
+        if file.endswith(".py") and not file.startswith("_"):
+            with open(os.path.join(FOLDER, file), encoding="utf-8") as text:
+                if "\ndef main(" in text.read():
+                    found.append(file.removesuffix(".py"))
+    return sorted(found)
 
 
 def main():
     name = sys.argv[1] if len(sys.argv) > 1 else ""
-    if not name.isidentifier() or not optional_file.exists(os.path.join(FOLDER, f"{name}.py")):
+    if name not in scripts():
+        example = __doc__[__doc__.index("/usr") :].split("\n")[0]
         return console.report(
-            console.Problem(f"usage: {__doc__[__doc__.index('/usr'):].split(chr(10))[0]}", 2)
+            console.Problem(
+                f"there is no script '{name}'.\n"
+                f"hint: the scripts are {', '.join(scripts())}, for example `{example}`.",
+                2,
+            )
         )
     sys.argv[:2] = [f"{sys.argv[0]} {name}"]
     try:

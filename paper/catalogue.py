@@ -41,6 +41,13 @@ def entries():
             with open(file, encoding="utf-8") as text:
                 module = f"{folder}.{os.path.basename(file)[:-len('.py')]}"
                 found += [(*entry, module) for entry in ENTRY.findall(text.read())]
+    for name, group, _, module in found:
+        if group not in GROUPS:
+            raise Problem(
+                f"the figure '{name}' in {module.replace('.', '/')}.py has the group '{group}'.\n"
+                f"hint: the groups are {', '.join(GROUPS)}.",
+                2,
+            )
     return sorted(
         found,
         key=lambda entry: (

@@ -238,7 +238,12 @@ def make(call):
 
 def main():
     stop_on_signals()
-    call = json.loads(sys.argv[1])
+    try:
+        call = json.loads(sys.argv[1])
+    except (IndexError, ValueError):
+        raise Problem(
+            "the argument is not the call of `swirl paper`, as JSON.\nhint: call `swirl paper`.", 2
+        ) from None
     if call.get("module"):
         sys.path.insert(0, call["module"])
     make(call)
