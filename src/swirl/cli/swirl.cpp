@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "swirl/cli/command_list.hpp"
-#include "swirl/io/short_values.hpp"
 #include "swirl/io/utf8.hpp"
+#include "swirl/run/failure.hpp"
 #include "swirl/run/names.hpp"
 #include "swirl/run/programs.hpp"
 #include "swirl/run/version.hpp"
@@ -21,9 +21,8 @@ namespace {
 
 constexpr int failure = 1, usage_error = 2;
 
-int report_error(int exit_code, const std::string& text, const std::string& hint) {
-    const std::string shown = swirl::with_short_values(text);
-    std::fprintf(stderr, "error: %s\nhint: %s\n", shown.c_str(), hint.c_str());
+int report_error(const std::exception& error, int exit_code) {
+    std::fprintf(stderr, "error: %s\n", error.what());
     return exit_code;
 }
 
@@ -45,8 +44,8 @@ std::string list_of_commands() {
 int print_all(const std::string& text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0)
         return 0;
-    std::fprintf(stderr, "error: writing to standard output failed: %s.\n", std::strerror(errno));
-    return failure;
+    throw swirl::Failure(std::string("writing to standard output failed: ") + std::strerror(errno) +
+                         ".");
 }
 
 /// What the build lacks for a command; empty if nothing.
@@ -56,56 +55,56 @@ std::string_view missing_library(const swirl::CommandRow& row) {
     return {};
 }
 
-int report_missing(const swirl::CommandRow& row) {
+[[noreturn]] void report_missing(const swirl::CommandRow& row) {
     const std::string name(row.name);
     const std::string_view library = missing_library(row);
     if (library == "camera")
-        return report_error(
-            failure, "this build has no camera support (OpenCV was not found).",
-            "install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl " + name +
-                " does both.");
+        throw swirl::Failure(
+            "this build has no camera support (OpenCV was not found).\n"
+            "hint: install libopencv-core-dev and libopencv-imgproc-dev and rebuild; ./swirl " +
+            name + " does both.");
     if (library == "drawing")
-        return report_error(failure, "this build cannot draw (cairo was not found).",
-                            "install libcairo2-dev and rebuild; ./swirl " + name + " does both.");
-    return report_error(
-        failure, "the program of `swirl " + name + "`, swirl-" + name + ", is not installed.",
-        "in the source folder, ./swirl " + name + " builds it.");
+        throw swirl::Failure(
+            "this build cannot draw (cairo was not found).\n"
+            "hint: install libcairo2-dev and rebuild; ./swirl " +
+            name + " does both.");
+    throw swirl::Failure("the program of `swirl " + name + "`, swirl-" + name +
+                         ", is not installed.\nhint: in the source folder, ./swirl " + name +
+                         " builds it.");
 }
 
-int reject_unknown(const std::string& word) {
+[[noreturn]] void reject_unknown(const std::string& word) {
     if (swirl::first_byte_not_utf8(word))
-        return report_error(usage_error, "the name of the command is not UTF-8 text.",
-                            "see `swirl --help`.");
+        throw swirl::UsageError(
+            "the name of the command is not UTF-8 text.\nhint: see `swirl --help`.");
     std::vector<std::string> names{"--help", "--version"};
     if (!word.starts_with('-'))
         for (const swirl::CommandRow& row : swirl::command_list)
             if (!row.is_script()) names.emplace_back(row.name);
     const auto nearest = swirl::nearest_name(word.substr(0, word.find('=')), names);
-    return report_error(
-        usage_error,
-        (word.starts_with('-') ? "there is no option " + word + "."
-                               : "there is no command '" + word + "'."),
-        nearest ? "did you mean " + *nearest + "? See `swirl --help`." : "see `swirl --help`.");
+    throw swirl::UsageError((word.starts_with('-') ? "there is no option " + word + "."
+                                                   : "there is no command '" + word + "'.") +
+                            (nearest ? "\nhint: did you mean " + *nearest + "? See `swirl --help`."
+                                     : "\nhint: see `swirl --help`."));
 }
 
 /// Becomes the program of the command, which gets these words.
-int run_command(const std::string& name, std::vector<char*> words) {
+[[noreturn]] void run_command(const std::string& name, std::vector<char*> words) {
     const swirl::CommandRow* const row = swirl::command_named(name);
-    if (row == nullptr) return reject_unknown(name);
+    if (row == nullptr) reject_unknown(name);
     if (row->is_script())
-        return report_error(usage_error,
-                            "`swirl " + name + "` belongs to the source folder of swirl.",
-                            "run ./swirl " + name + " there.");
-    if (!missing_library(*row).empty()) return report_missing(*row);
+        throw swirl::UsageError("`swirl " + name +
+                                "` belongs to the source folder of swirl.\nhint: run ./swirl " +
+                                name + " there.");
+    if (!missing_library(*row).empty()) report_missing(*row);
     const std::string program = swirl::program_of_command(name).string();
-    if (program.empty()) return report_missing(*row);
+    if (program.empty()) report_missing(*row);
     std::string program_name = "swirl-" + name;  // swirl-commands chooses the command by it
     words.insert(words.begin(), program_name.data());
     words.push_back(nullptr);
     execv(program.c_str(), words.data());
-    return report_error(failure,
-                        "'" + program + "' cannot be started: " + std::strerror(errno) + ".",
-                        "install swirl again.");
+    throw swirl::Failure("'" + program + "' cannot be started: " + std::strerror(errno) +
+                         ".\nhint: install swirl again.");
 }
 
 int main_or_throw(int argc, char** argv) {
@@ -119,9 +118,9 @@ int main_or_throw(int argc, char** argv) {
         return print_all(list_of_commands());
     if (word == "help") {
         std::string topic = argc > 3 ? std::string("--help=") + argv[3] : "--help";
-        return run_command(argv[2], {topic.data()});
+        run_command(argv[2], {topic.data()});
     }
-    return run_command(word, {argv + 2, argv + argc});
+    run_command(word, {argv + 2, argv + argc});
 }
 
 }  // namespace
@@ -129,8 +128,9 @@ int main_or_throw(int argc, char** argv) {
 int main(int argc, char** argv) {
     try {
         return main_or_throw(argc, argv);
-    } catch (const std::exception& unexpected) {
-        std::fprintf(stderr, "error: %s.\n", unexpected.what());
-        return failure;
+    } catch (const swirl::UsageError& error) {
+        return report_error(error, usage_error);
+    } catch (const std::exception& error) {
+        return report_error(error, failure);
     }
 }
