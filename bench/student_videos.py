@@ -72,11 +72,11 @@ KINDS = [
     # Complete calls: other cameras and difficult set-ups.
     (
         "laboratory",
-        ["--camera", "laboratory", "--discs", 36, "--frames-per-period", 128, "--length", 1.5],
+        ["--camera", "laboratory", "--discs", 36, "--frames-per-period", 128, "--periods", 1.5],
         "complete",
     ),
-    ("phone", ["--camera", "phone", "--discs", 48, "--length", 1.5, "--quality", 26], "complete"),
-    ("bad", ["--camera", "bad", "--discs", 28, "--length", 4, "--quality", 26], "complete"),
+    ("phone", ["--camera", "phone", "--discs", 48, "--periods", 1.5, "--quality", 26], "complete"),
+    ("bad", ["--camera", "bad", "--discs", 28, "--periods", 4, "--quality", 26], "complete"),
     (
         "two sizes of steel",
         [
@@ -86,7 +86,7 @@ KINDS = [
             32,
             "--mixture",
             "10:1.35",
-            "--length",
+            "--periods",
             1.5,
             "--quality",
             24,
@@ -95,24 +95,24 @@ KINDS = [
     ),
     (
         "camera tilted by 8 degrees",
-        [*ROUGH, "--length", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
+        [*ROUGH, "--periods", 2, "--tilt", 8, "--tilt-towards", 250, "--quality", 14],
         "complete",
     ),
     (
         "three fast discs",
-        ["--camera", "student", "--discs", 3, "--seed", 4, "--quality", 23, "--length", 2],
+        ["--camera", "student", "--discs", 3, "--seed", 4, "--quality", 23, "--periods", 2],
         "complete",
     ),
     (
         "light from one side",
-        [*ROUGH, "--length", 6, "--quality", 14, *LIGHT, "--gloss", 60],
+        [*ROUGH, "--periods", 6, "--quality", 14, *LIGHT, "--gloss", 60],
         "complete",
     ),
     (
         "contrast 1.3:1",
         [
             *ROUGH,
-            "--length",
+            "--periods",
             2.5,
             "--floor-level",
             100,
@@ -193,7 +193,7 @@ class Video:
             self.turn_truth()
 
     def make(self, made, options, periods):
-        call = [*([] if self.complete else [*COMMON, "--length", periods]), *options]
+        call = [*([] if self.complete else [*COMMON, "--periods", periods]), *options]
         if self.seed is not None:
             at = call.index("--seed") if "--seed" in call else len(call)
             call[at : at + 2] = ["--seed", self.seed]
@@ -340,7 +340,8 @@ def track(folder, video):
         if done.returncode == 0:
             break
         options = re.findall(
-            r"--(?:from|to|correct-frames) \S+|--discs", done.stderr.partition("hint:")[2]
+            r"--(?:first-frame|last-frame|correct-frames) \S+|--discs",
+            done.stderr.partition("hint:")[2],
         )
         options = [
             word

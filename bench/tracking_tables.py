@@ -17,10 +17,10 @@ import track_test  # noqa: E402
 from program import HANG, swirl  # noqa: E402
 
 VIDEOS = (
-    ("laboratory", ["--discs", 36, "--length", 1.5]),
-    ("phone", ["--discs", 48, "--length", 4, "--quality", 26]),
-    ("bad", ["--discs", 28, "--length", 12, "--quality", 26]),
-    ("steel", ["--discs", 32, "--mixture", "10:1.35", "--length", 4, "--quality", 24]),
+    ("laboratory", ["--discs", 36, "--periods", 1.5]),
+    ("phone", ["--discs", 48, "--periods", 4, "--quality", 26]),
+    ("bad", ["--discs", 28, "--periods", 12, "--quality", 26]),
+    ("steel", ["--discs", 32, "--mixture", "10:1.35", "--periods", 4, "--quality", 24]),
 )
 
 
@@ -63,7 +63,7 @@ def print_spins(folder):
                 36,
                 "--frames-per-period",
                 64,
-                "--max-frames",
+                "--frame-count",
                 80,
                 "--noise",
                 noise,

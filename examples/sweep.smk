@@ -1,6 +1,6 @@
 # A sweep as a Snakemake workflow: each part is a job of its own, then the table is collected.
 #
-#     snakemake --snakefile examples/sweep.smk --cores 4 --config discs=5:48 seeds=8
+#     snakemake --snakefile examples/sweep.smk --cores 4 --config discs=5:48 replicates=8
 #
 # The entries of --config are options of `swirl sweep`, and also `swirl`, the program, and `parts`.
 PLAN = {name: value for name, value in config.items() if name not in ("swirl", "parts")} or {"discs": "20:2:40"}

@@ -89,7 +89,7 @@ def curve(folder, out, name, mu_disc, mu_wall, inertia, numbers=None):
         inertia=inertia,
         events=EVENTS,
         warmup=0,
-        seeds=SEEDS,
+        replicates=SEEDS,
     )
     rates = {discs: [] for discs in numbers if discs in theirs}
     for file in optional_file.names_in(os.path.join(runs, "results")):

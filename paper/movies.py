@@ -125,7 +125,7 @@ def movie_of(system, version, frame, call):
         "fps": fps,
         "pace": 1,
         "size": f"{side}x{side}",
-        "frame": frame,
+        "view": "laboratory" if frame == "lab" else frame,
         "color": system.colors[frame],
         "start": 0 if model else WARMUP,
         "seconds": seconds,
@@ -184,7 +184,7 @@ def make_movie(movie, call):
         "--out",
         file,
         "--quiet",
-        *(["--turned-angle"] if movie.options["frame"] == "lab" else []),
+        *(["--turned-angle"] if movie.options["view"] == "laboratory" else []),
     ]
     for name, value in movie.options.items():
         words += [f"--{name}", str(value)]

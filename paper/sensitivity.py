@@ -74,7 +74,7 @@ def rows_at(out, name, mu, changes, floor, numbers, seeds):
         mu=mu,
         floor_friction=round(mu * floor, 4),
         discs=list(numbers),
-        seeds=seeds,
+        replicates=seeds,
         measure=["slip", "frustration"],
         **LENGTH,
         **changes,

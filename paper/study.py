@@ -38,7 +38,7 @@ class Settings:
     def __post_init__(self):
         if self.first_seeds is not None and not 2 <= self.first_seeds <= self.max_seeds:
             raise Problem(
-                f"--seeds is {self.first_seeds}, but it must be from 2 to {self.max_seeds}.", 2
+                f"--replicates is {self.first_seeds}, but it must be from 2 to {self.max_seeds}.", 2
             )
 
     @property

@@ -73,7 +73,7 @@ constexpr ArrayParameter array_parameters[] = {
 
 const ArrayParameter* array_parameter(const std::string& name) {
     for (const ArrayParameter& p : array_parameters)
-        if (name == p.name) return &p;
+        if (plain_name(name) == p.name) return &p;
     return nullptr;
 }
 
@@ -88,7 +88,7 @@ std::string array_text(const ArrayParameter& p, const py::handle& value) {
     const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 1;
     if (array.size() == 0 || array.ndim() < 1 || array.ndim() > 2 || columns < p.min_columns ||
         columns > p.max_columns)
-        throw_wrong_type(p.name, value, p.expected);
+        throw_wrong_type(user_name(p.name), value, p.expected);
     std::string text = p.word;
     for (py::ssize_t k = 0; k < array.size(); ++k)
         text += fmt::format("{}{}", k % columns == 0 ? ' ' : ':', array.data()[k]);
@@ -119,14 +119,19 @@ std::string list_text(const std::string& name, const py::handle& values) {
     return text;
 }
 
-ParameterTexts texts_by(const py::dict& given, auto&& text_of) {
+/// `arguments` are those of the function, in addition to the parameters.
+ParameterTexts texts_by(const py::dict& given, const std::vector<std::string>& arguments,
+                        auto&& text_of) {
     ParameterTexts texts;
     for (const auto& [key, value] : given) {
         if (value.is_none()) continue;
         const std::string name = utf8_text("the name of a parameter", key);
         const Parameter* const row = find_parameter(name);
-        if (row == nullptr || !row->is_settable() || name != row->name) {
-            const auto similar = nearest_name(plain_name(name), parameter_names());
+        const bool is_name = row && (name == row->name || name == user_name(row->name));
+        if (!is_name || !row->is_settable()) {
+            std::vector<std::string> names = arguments;
+            for (std::string& known : parameter_names()) names.push_back(std::move(known));
+            const auto similar = nearest_name(name, names);
             throw py::type_error(fmt::format("there is no parameter '{}'.\nhint: {}",
                                              shortened(name),
                                              similar ? fmt::format("did you mean '{}'?", *similar)
@@ -136,7 +141,9 @@ ParameterTexts texts_by(const py::dict& given, auto&& text_of) {
         // An error message that quotes the text would end at the null character.
         if (text.find('\0') != std::string::npos)
             throw UsageError(fmt::format("{} contains a null character.", name));
-        texts[name] = with_file_contents(name, text);
+        if (!texts.emplace(row->name, with_file_contents(name, text)).second)
+            throw UsageError(fmt::format("{} is given twice, as {} and as {}.",
+                                         user_name(row->name), row->name, user_name(row->name)));
     }
     return texts;
 }
@@ -144,20 +151,24 @@ ParameterTexts texts_by(const py::dict& given, auto&& text_of) {
 }  // namespace
 
 ParameterTexts texts_of(const py::dict& given) {
-    return texts_by(given, [](const std::string& name, const py::handle& value) {
-        if (is_list(value) && !array_parameter(name))
-            throw_wrong_type(name, value,
-                             "one number or text (only swirl.sweep() and swirl.map() take lists)");
-        return value_text(name, value);
-    });
+    return texts_by(
+        given, {"frames_per_period"}, [](const std::string& name, const py::handle& value) {
+            if (is_list(value) && !array_parameter(name))
+                throw_wrong_type(
+                    name, value,
+                    "one number or text (only swirl.sweep() and swirl.map() take lists)");
+            return value_text(name, value);
+        });
 }
 
 ParameterTexts lists_of(const py::dict& given) {
-    return texts_by(given, [](const std::string& name, const py::handle& value) {
-        // One array is one path; a list is an axis with several.
-        const bool is_array = array_parameter(name) && py::isinstance<py::array>(value);
-        return is_list(value) && !is_array ? list_text(name, value) : value_text(name, value);
-    });
+    return texts_by(
+        given, {"replicates", "frames_per_period"},
+        [](const std::string& name, const py::handle& value) {
+            // One array is one path; a list is an axis with several.
+            const bool is_array = array_parameter(name) && py::isinstance<py::array>(value);
+            return is_list(value) && !is_array ? list_text(name, value) : value_text(name, value);
+        });
 }
 
 std::string python_message(std::string_view message) {

@@ -93,22 +93,22 @@ std::vector<Disc> discs_of(const GivenDiscs& given, const RunConfig& config,
 }
 
 ContainerPath polygon(const Numbers& vertices, const std::optional<Numbers>& times, double period) {
-    require_pairs("path", vertices, 0);
+    require_pairs("motion", vertices, 0);
     const auto n = static_cast<std::size_t>(vertices.shape(0));
-    if (n < 2) throw UsageError("path has one vertex, but it must have at least two.");
+    if (n < 2) throw UsageError("motion has one vertex, but it must have at least two.");
     for (std::size_t k = 0; k < 2 * n; ++k)
         if (!(std::abs(vertices.data()[k]) <= largest_value))
-            throw UsageError(fmt::format("path contains {}, but it must be from {} to {}.",
+            throw UsageError(fmt::format("motion contains {}, but it must be from {} to {}.",
                                          vertices.data()[k], -largest_value, largest_value));
     if (static_cast<double>(n) > max_sides)
         throw UsageError(
-            fmt::format("path has {} vertices, but at most {} are allowed.", n, max_sides));
+            fmt::format("motion has {} vertices, but at most {} are allowed.", n, max_sides));
     const auto vertex = [&](std::size_t k) {
         return Vec2{vertices.data()[2 * (k % n)], vertices.data()[2 * (k % n) + 1]};
     };
     std::vector<double> at(n + 1, 0.0);
     if (times) {
-        const auto given = column_of("path_times", times, n, 0.0);
+        const auto given = column_of("motion_times", times, n, 0.0);
         std::copy(given.begin(), given.end(), at.begin());
     } else {
         // The speed is constant, so times are proportional to the length of the path.
@@ -123,16 +123,17 @@ ContainerPath polygon(const Numbers& vertices, const std::optional<Numbers>& tim
     at[n] = period;
     if (at[0] != 0.0)
         throw UsageError(
-            fmt::format("path_times begins with {}, but it must begin with 0.", at[0]));
+            fmt::format("motion_times begins with {}, but it must begin with 0.", at[0]));
     ContainerPath path{period, {}};
     const double min_duration = 1e-9 * period;
     for (std::size_t k = 0; k < n; ++k) {
         const double duration = at[k + 1] - at[k];
         if (!(duration >= min_duration))
-            throw UsageError(fmt::format(
-                "path has vertex {} at time {} and the next one at {}, but times must increase up "
-                "to the period {}, and consecutive vertices must differ.",
-                k, at[k], at[k + 1], period));
+            throw UsageError(
+                fmt::format("motion has vertex {} at time {} and the next one at {}, but times "
+                            "must increase up "
+                            "to the period {}, and consecutive vertices must differ.",
+                            k, at[k], at[k + 1], period));
         path.segments.push_back(
             {at[k], at[k + 1], vertex(k), (1.0 / duration) * (vertex(k + 1) - vertex(k)), 0.0});
     }

@@ -179,7 +179,8 @@ RunFiles run_files(const py::dict& given) {
     files.event_log = path("event_log");
     files.checkpoint = path("checkpoint");
     files.series = path("series");
-    if (given.contains("frames")) files.frames.per_period = py::cast<int>(given["frames"]);
+    if (given.contains("frames_per_period"))
+        files.frames.per_period = py::cast<int>(given["frames_per_period"]);
     files.resume = given.contains("resume") && py::cast<bool>(given["resume"]);
     files.overwrite = given.contains("overwrite") && py::cast<bool>(given["overwrite"]);
     return files;
@@ -189,8 +190,9 @@ py::list parameter_table() {
     py::list table;
     for (const Parameter& p : run_parameters)
         if (p.is_settable())
-            table.append(py::make_tuple(p.name, p.symbol, p.unit, python_message(p.description),
-                                        default_of(p), p.range.lowest, p.range.highest, p.group));
+            table.append(py::make_tuple(user_name(p.name), p.symbol, p.unit,
+                                        python_message(p.description), default_of(p),
+                                        p.range.lowest, p.range.highest, p.group));
     return table;
 }
 

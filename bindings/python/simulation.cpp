@@ -361,7 +361,7 @@ std::unique_ptr<InteractiveSimulation> make_simulation(const py::dict& parameter
     const bool is_custom = given || path;
     if (is_custom && config.shape() != Shape::disc)
         throw UsageError("position and path are allowed only for discs without a floor.");
-    if (path_times && !path) throw UsageError("path_times is given, but path is not.");
+    if (path_times && !path) throw UsageError("motion_times is given, but motion is not.");
     std::atomic<bool> stop = false;
     InitialState scene;
     if (given) {

@@ -56,10 +56,12 @@ std::vector<PointRow> point_rows(const std::vector<py::dict>& given, std::int64_
     for (const py::dict& cells : given) {
         const std::string where = fmt::format("points, row {}", rows.size() + 1);
         const py::dict parameters = cells.attr("copy")();
-        const py::object seeds = parameters.attr("pop")("seeds", py::none());
+        // A table may have the former name of the column.
+        const py::object former = parameters.attr("pop")("seeds", py::none());
+        const py::object own_replicates = parameters.attr("pop")("replicates", former);
         try {
             ParameterTexts texts = texts_of(parameters);
-            if (!seeds.is_none()) texts["seeds"] = py::str(seeds);
+            if (!own_replicates.is_none()) texts["replicates"] = py::str(own_replicates);
             rows.push_back(point_row(where, texts, replicas));
         } catch (const py::type_error& error) {
             throw py::type_error(where + ": " + error.what());
@@ -202,7 +204,7 @@ MapAxisText axis_of(const py::dict& axis) {
 void write_map_plan(const std::string& folder, const py::dict& x, const py::dict& y,
                     const std::string& of, const std::string& rate, double level,
                     std::optional<double> change, double tolerance, std::int64_t steps,
-                    std::int64_t seeds, std::int64_t minimum, std::int64_t maximum,
+                    std::int64_t replicates, std::int64_t minimum, std::int64_t maximum,
                     const py::dict& given) {
     MapSettings settings{.x = axis_of(x),
                          .y = axis_of(y),
@@ -212,7 +214,7 @@ void write_map_plan(const std::string& folder, const py::dict& x, const py::dict
                          .change = change,
                          .tolerance = tolerance};
     settings.steps = steps;
-    settings.max_runs = seeds;
+    settings.max_runs = replicates;
     settings.from = minimum;
     settings.to = maximum;
     settings.parameters = texts_of(given);
@@ -222,12 +224,12 @@ void write_map_plan(const std::string& folder, const py::dict& x, const py::dict
 
 /// What is not given does not change.
 void grow_map(const std::string& folder, const py::dict& x, const py::dict& y, std::int64_t steps,
-              std::optional<std::int64_t> seeds, std::optional<std::int64_t> minimum,
+              std::optional<std::int64_t> replicates, std::optional<std::int64_t> minimum,
               std::optional<std::int64_t> maximum) {
     const SweepPlan before = read_plan(folder);
     const MapGrowth growth{.axes = {axis_of(x), axis_of(y)},
                            .steps = steps,
-                           .max_runs = seeds,
+                           .max_runs = replicates,
                            .from = minimum,
                            .to = maximum};
     write_plan(folder, grown_map(before, growth), &before);
@@ -255,10 +257,10 @@ py::tuple make_map(const std::string& folder, unsigned threads, const ProgressCa
 
 void bind_studies(py::module_& module) {
     py::class_<SweepPlan>(module, "Plan")
-        .def(py::init(&plan_of), py::arg("parameters"), py::arg("seeds"), py::arg("measured"),
+        .def(py::init(&plan_of), py::arg("parameters"), py::arg("replicates"), py::arg("measured"),
              py::arg("frames"), py::arg("chain") = "", py::arg("series") = false,
              py::arg("rows") = py::none(),
-             R"(__init__(self, parameters: dict[str, Any], seeds: int, measured: list[str],
+             R"(__init__(self, parameters: dict[str, Any], replicates: int, measured: list[str],
     frames: int, chain: str = "", series: bool = False,
     rows: Optional[list[dict[str, Any]]] = None) -> None)")
         .def("__len__", &SweepPlan::points, "__len__(self) -> int")
@@ -288,7 +290,7 @@ void bind_studies(py::module_& module) {
             };
             write_plan(folder, plan(), &before);
         },
-        R"(grow(folder: str, more: dict[str, Any], seeds: int, measured: Sequence[str],
+        R"(grow(folder: str, more: dict[str, Any], replicates: int, measured: Sequence[str],
     rows: Optional[list[dict[str, Any]]]) -> None)");
     module.def(
         "run_identity",
@@ -298,7 +300,7 @@ void bind_studies(py::module_& module) {
         "run_identity(parameters: dict[str, Any]) -> str");
     module.def("result_files", &result_files,
                R"(result_files(folder: str, rows: list[dict[str, Any]],
-    seeds: int) -> list[list[tuple[str, str]]])");
+    replicates: int) -> list[list[tuple[str, str]]])");
     module.def("sweep", &sweep, py::arg("folder"), py::arg("threads"), py::arg("progress"),
                py::arg("rows") = py::none(),
                R"(sweep(folder: str, threads: int,
@@ -317,10 +319,10 @@ void bind_studies(py::module_& module) {
     module.def("write_map_plan", &write_map_plan,
                R"(write_map_plan(folder: str, x: dict[str, Any], y: dict[str, Any], quantity: str,
     rate: str, level: float, change: Optional[float], tolerance: float, steps: int,
-    seeds: int, min_discs: int, max_discs: int, parameters: dict[str, Any]) -> None)");
+    replicates: int, min_discs: int, max_discs: int, parameters: dict[str, Any]) -> None)");
     module.def("grow_map", &grow_map,
                R"(grow_map(folder: str, x: dict[str, Any], y: dict[str, Any], steps: int,
-    seeds: Optional[int], min_discs: Optional[int],
+    replicates: Optional[int], min_discs: Optional[int],
     max_discs: Optional[int]) -> None)");
     module.def("make_map", &make_map,
                R"(make_map(folder: str, threads: int,

@@ -4,7 +4,7 @@ In a transition of first order both lifetimes are much longer than the motion wi
 grow with the size of the dish, and a line of equal lifetimes separates the states. The lifetimes
 here cannot show that: windows are told apart by their elongation alone, and an elongated cluster is
 a rotating wave at R/r = 34.4, but also an ellipse at rest at 48 (AXES). Rotation and rate of the
-axis tell these apart. `--seeds 64 --events 3.4e6` runs 64 seeds for 1000 periods, and `--part K/N`
+axis tell these apart. `--replicates 64 --events 3.4e6` runs 64 seeds for 1000 periods, and `--part K/N`
 divides the runs among the jobs of a cluster (docs/how-to/reproduce_paper.md)."""
 
 import math

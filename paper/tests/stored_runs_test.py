@@ -208,7 +208,7 @@ def test_more_seeds_for_a_single_point():
 @pytest.mark.parametrize("quick, seeds, most", ((False, 33, 32), (False, 0, 32), (True, 13, 12)))
 def test_a_number_of_seeds_beyond_the_budget_of_a_point_is_rejected(quick, seeds, most):
     with pytest.raises(
-        console.Problem, match=f"--seeds is {seeds}, but it must be from 2 to {most}"
+        console.Problem, match=f"--replicates is {seeds}, but it must be from 2 to {most}"
     ) as problem:
         study.Settings(quick=quick, first_seeds=seeds)
     assert problem.value.code == 2

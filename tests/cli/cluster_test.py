@@ -8,7 +8,7 @@ import program
 from program import SOURCE, InFolder, read_text, slow, swirl, wait_until, write_text
 
 AXES = ["--discs", "20:34", "--mu", "0.5,1"]
-RUNS = ["--seeds", "2", "--events", "200000"]
+RUNS = ["--replicates", "2", "--events", "200000"]
 TABLE = "discs,mu\n" + "".join(f"{discs},{mu}\n" for discs in range(20, 35) for mu in (0.5, 1))
 POINTS = 60
 
@@ -27,7 +27,7 @@ class Cluster(InFolder):
             "--out",
             out,
             "--slurm",
-            "--nodes",
+            "--tasks",
             3,
             environment=environment,
         )
@@ -76,7 +76,7 @@ class Cluster(InFolder):
 class Workflow(InFolder):
     @slow("Snakemake has many packages")
     def test_snakemake_makes_the_parts_and_the_table(self):
-        plan = {"discs": "5:8", "mu": "0.5,1", "seeds": "2", "events": "2000"}
+        plan = {"discs": "5:8", "mu": "0.5,1", "replicates": "2", "events": "2000"}
         done = subprocess.run(
             [
                 "snakemake",

@@ -363,7 +363,7 @@ class Cluster(InFolder):
         slurm, environment = private_slurm.started_for(self, nodes=2)
         call, out = ["crossing", "--mu", "0.5,1", *FEW, *SHORT], self.path("two searches")
         submitted = self.assert_works(
-            *call, "--out", out, "--slurm", "--nodes", 2, environment=environment
+            *call, "--out", out, "--slurm", "--tasks", 2, environment=environment
         )
         self.assertIn("Submitted as job", submitted.stdout)
         wait_until(lambda: not slurm.run("squeue", "-h").stdout)

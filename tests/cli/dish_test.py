@@ -111,7 +111,7 @@ class Dish(InFolder):
             8,
             "--warmup",
             1,
-            "--seeds",
+            "--replicates",
             1,
             "--my-points",
             self.path("mine.csv"),

@@ -95,17 +95,21 @@ class Help(ProgramTest):
                 short, full = swirl(name, "-h"), help_of(name)
                 self.assertEqual((short.returncode, short.stderr), (0, ""))
                 options = dict(described_options(short.stdout))
-                options.pop("--help")
+                options.pop("--help", None)  # -h,--help
                 self.assertLessEqual(len(options), 15)
                 self.assertLessEqual(options.items(), dict(described_options(full)).items())
                 self.assertIn(f"\nUsage: swirl {name} [OPTIONS]", short.stdout)
+                if name == "run":  # its topics are the full help
+                    self.assertEqual(short.stdout, swirl("run", "--help").stdout)
+                    self.assertEqual(examples(short.stdout), examples(full)[:2])
+                    continue
                 self.assertIn(f"All options: swirl {name} --help\n", short.stdout)
                 self.assertEqual(examples(short.stdout), examples(full))
         self.assertEqual(swirl("-h").stdout, swirl("--help").stdout)
 
     def test_the_help_of_run_has_topics(self):
         text = swirl("run", "--help").stdout
-        self.assertLessEqual(len(text.splitlines()), 48)
+        self.assertLessEqual(len(text.splitlines()), 30)
         topics = re.findall(r"^  swirl help run ([a-z-]+) +(\d+) options$", text, re.M)
         self.assertEqual(
             [name for name, _ in topics], ["particles", "container", "run", "files", "output"]
@@ -159,7 +163,7 @@ class Help(ProgramTest):
     def test_a_wrong_value_gets_a_suggestion(self):
         for call, meant in (
             (["run", "--body", "spere"], "sphere"),
-            (["run", "--path", "cirle"], "circle"),
+            (["run", "--motion", "cirle"], "circle"),
             (["run", "--measure", "dens"], "density"),
             (["run", "--inertia", "shel"], "shell"),
             (["image", "--color", "sped", "--out", "x.png"], "speed"),
@@ -173,18 +177,20 @@ class Help(ProgramTest):
 
     def test_an_unknown_name_gets_a_suggestion_only_if_it_is_likely(self):
         for call, hint in (
-            (["run", "--out", "r.json"], "did you mean --json? See `swirl run --help`."),
+            (["run", "--out", "r.json"], "did you mean --json? See `swirl help run output`."),
             (
                 ["collect", "sweep", "--out", "t.csv"],
                 "did you mean --csv? See `swirl collect --help`.",
             ),
-            (["run", "--friction=0.5"], "did you mean --mu? See `swirl run --help`."),
-            (["run", "--dicss", "5"], "did you mean --discs? See `swirl run --help`."),
+            (["run", "--friction=0.5"], "did you mean --mu? See `swirl help run particles`."),
+            (["run", "--dicss", "5"], "did you mean --discs? See `swirl help run particles`."),
             # The unknown option explains why a required one is missing.
             (
                 ["export", "t.h5", "--to", "xyz"],
                 "did you mean --format? See `swirl export --help`.",
             ),
+            (["sweep", "--dicss", "5"], "did you mean --discs? See `swirl help run particles`."),
+            (["sweep", "--seeds", "5"], "did you mean --replicates? See `swirl sweep --help`."),
             (["run", "--frobnicate"], "see `swirl run --help`."),
             (["frobnicate"], "see `swirl --help`."),
         ):
@@ -193,6 +199,26 @@ class Help(ProgramTest):
                 self.assertRegex(
                     done.stderr, rf"\Aerror: there is no [^\n]+\.\nhint: {re.escape(hint)}\n\Z"
                 )
+
+    def test_a_wrong_value_names_the_topic_of_its_option(self):
+        for call, hint in (
+            (["run", "--mu"], "see `swirl help run particles`."),
+            (["run", "--quiet=1"], "see `swirl help run output`."),
+            (["movie", "--mu"], "see `swirl help run particles`."),
+            (["movie", "--fps", "x"], "see `swirl movie --help`."),
+        ):
+            with self.subTest(call):
+                self.assertTrue(self.assert_fails(2, *call).stderr.endswith(f"\nhint: {hint}\n"))
+
+    def test_the_values_in_a_form_are_accepted(self):
+        seen = 0
+        for option, form in re.findall(r"^  (--[a-z-]+) (\S+\|\S+)", help_of("run"), re.M):
+            for value in form.split("|"):
+                if re.fullmatch("[a-z][^A-Z]*", value):
+                    seen += 1
+                    with self.subTest(option=option, value=value):
+                        self.assert_works("run", option, value, "--dry-run")
+        self.assertGreater(seen, 20)
 
     def test_messages_name_only_options_that_exist(self):
         known = {
@@ -247,7 +273,8 @@ class Help(ProgramTest):
             self.assertNotIn("-", key, path)
         for key in result["config"]:
             if key != "omega":  # derived from the period
-                self.assertIn(key.replace("_", "-"), options)
+                option = {"path": "motion", "path_phase": "start_angle"}.get(key, key)
+                self.assertIn(option.replace("_", "-"), options)
 
     def test_version_is_one_line(self):
         done = self.assert_works("--version")

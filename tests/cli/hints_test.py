@@ -1,11 +1,13 @@
 """Commands in messages work in a shell for all file names; `--` ends the options."""
 
+import json
+import os
 import re
 import shlex
 import subprocess
 import unittest
 
-from program import HANG, SWIRL, InFolder, swirl, write_text
+from program import HANG, SWIRL, InFolder, commands, read_text, swirl, write_text
 
 NAMES = [
     "plain",
@@ -109,21 +111,55 @@ class EndOfOptions(InFolder):
         self.assertEqual(self.call("run", "plan.toml", "--").stdout.split()[0], "4")
 
 
+# Every option that had another name: the commands, the former and the present name.
+RENAMED = (
+    ("movie image", "--frame", "--view"),
+    ("run sweep crossing map dish movie image", "--path", "--motion"),
+    ("run sweep crossing map dish movie image", "--path-phase", "--start-angle"),
+    ("track", "--path-out", "--motion-out"),
+    ("track", "--path", "--motion-out"),
+    ("track", "--from", "--first-frame"),
+    ("track", "--to", "--last-frame"),
+    ("track", "--skip", "--ignore-frames"),
+    ("run measure crossing track paper", "--omit-paths", "--portable"),
+    ("run sweep", "--frames", "--frames-per-period"),
+    ("sweep map dish experiment paper", "--seeds", "--replicates"),
+    ("sweep map crossing", "--nodes", "--tasks"),
+    ("sweep map crossing", "--cpus", "--cores"),
+    ("experiment", "--smooth", "--smooth-discs"),
+    ("synthetic-video", "--length", "--periods"),
+    ("synthetic-video", "--max-frames", "--frame-count"),
+    ("synthetic-video", "--path", "--motion"),
+    ("movie", "--frames", "--frame-files"),
+    ("measure", "--skip", "--warmup"),
+    ("export", "--to", "--format"),
+    ("map", "--of", "--quantity"),
+    ("sweep", "--rest", "--finish-others"),
+)
+
+# The present keys of a configuration file, and the former ones, which are still read.
+FORMER_KEYS = (
+    ("run", "motion", "path", "ellipse:0.5"),
+    ("run", "start_angle", "path_phase", "90"),
+    ("run", "trajectory = 'a.h5'\nframes_per_period", "trajectory = 'a.h5'\nframes", "12"),
+)
+
+
 class FormerNames(InFolder):
     def test_a_former_name_gets_the_present_one(self):
+        known = commands()
         for command, former, present in (
-            ("movie", "--frames", "--frame-files"),
-            ("track", "--path", "--path-out"),
-            ("measure", "--skip", "--warmup"),
-            ("export", "--to", "--format"),
-            ("map", "--of", "--quantity"),
-            ("sweep", "--rest", "--finish-others"),
+            (command, former, present)
+            for those, former, present in RENAMED
+            for command in those.split()
+            if command in known
         ):
             with self.subTest(command=command, former=former):
                 required = {
                     "export": ["a.h5", "--format", "xyz"],
                     "map": ["--out", "m"],
                     "sweep": ["--out", "s"],
+                    "experiment": ["a.mp4"],
                 }
                 self.assert_fails(
                     2,
@@ -143,6 +179,47 @@ class FormerNames(InFolder):
             "by_event",
             cwd=self.folder,
             says="did you mean 'mean_by_event'?",
+        )
+
+    def test_a_file_may_have_the_former_keys(self):
+        for command, present, former, value in FORMER_KEYS:
+            with self.subTest(former):
+                made = []
+                for key in (present, former):
+                    write_text(self.path("a.toml"), f"discs = 3\nevents = 10\n{key} = '{value}'\n")
+                    call = [command, "a.toml", "--dry-run"]
+                    made.append(self.assert_works(*call, cwd=self.folder).stdout)
+                self.assertEqual(made[0], made[1])
+                self.assertIn(present.split()[-1] + " = ", made[0])
+        write_text(self.path("a.toml"), "path = 'line'\nmotion = 'line'\n")
+        self.assert_fails(2, "run", "a.toml", cwd=self.folder, says="motion is given twice")
+
+    def test_results_keep_the_keys_of_the_motion(self):
+        call = ["run", "--discs", 3, "--events", 10, "--json", "-", "--quiet"]
+        done = self.assert_works(*call, "--motion", "line", "--start-angle", 90, cwd=self.folder)
+        config = json.loads(done.stdout)["config"]
+        self.assertEqual((config["path"], config["path_phase"]), ("line", 90.0))
+
+    def test_a_table_of_points_may_have_the_former_columns(self):
+        plans = []
+        for header in ("discs,motion,replicates", "discs,path,seeds"):
+            write_text(self.path("points.csv"), header + "\n3,line,2\n4,circle,1\n")
+            call = ["sweep", "--points", "points.csv", "--out", header, "--events", 10, "--quiet"]
+            self.assert_works(*call, cwd=self.folder)
+            plans.append(json.loads(read_text(os.path.join(self.path(header), "plan.json"))))
+        self.assertEqual(plans[0], plans[1])
+
+    def test_a_former_view_gets_the_present_one(self):
+        self.assert_fails(
+            2,
+            "image",
+            "--view",
+            "lab",
+            "--out",
+            "a.png",
+            cwd=self.folder,
+            says="--view is 'lab', but it must be laboratory, m or both.\nhint: did you mean "
+            "'laboratory'?",
         )
 
     def test_a_former_key_of_a_file_gets_the_present_one(self):

@@ -23,7 +23,18 @@ from program import (
     write_text,
 )
 
-DISCS = ["run", "--discs", "4", "--periods", "3", "--frames", "5", "--warmup", "1", "--quiet"]
+DISCS = [
+    "run",
+    "--discs",
+    "4",
+    "--periods",
+    "3",
+    "--frames-per-period",
+    "5",
+    "--warmup",
+    "1",
+    "--quiet",
+]
 # HDF5 1.14 itself rejects what 1.10 opens.
 WRONG_SHAPE = re.compile("does not match its shape|cannot be read as a dataset")
 SPHERES = [*DISCS, "--body", "sphere", "--floor", "sliding"]

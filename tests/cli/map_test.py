@@ -35,7 +35,7 @@ MAP = [
     "0.5",
     "--periods",
     "12",
-    "--seeds",
+    "--replicates",
     "4",
     "--no-figure",
     "--quiet",
@@ -105,7 +105,7 @@ class Map(InFolder):
             6,
             "--warmup",
             1,
-            "--seeds",
+            "--replicates",
             2,
             "--no-figure",
             "--quiet",
@@ -135,7 +135,7 @@ class Map(InFolder):
     def test_messages_speak_of_maps(self):
         self.whole()
         for call in (
-            ["map", "--out", self.path("whole"), "--grow", "--seeds", 2],
+            ["map", "--out", self.path("whole"), "--grow", "--replicates", 2],
             ["collect", self.path("whole"), "--csv", self.path("whole/results/a.csv")],
         ):
             done = self.assert_fails(2, *call, says="the map")
@@ -221,7 +221,7 @@ class Map(InFolder):
             0.5,
             "--periods",
             10,
-            "--seeds",
+            "--replicates",
             2,
             "--no-figure",
             "--quiet",
@@ -242,7 +242,7 @@ class Map(InFolder):
             0,
             "--periods",
             10,
-            "--seeds",
+            "--replicates",
             2,
             "--no-figure",
             "--quiet",
@@ -273,7 +273,7 @@ class Map(InFolder):
             0,
             "--periods",
             10,
-            "--seeds",
+            "--replicates",
             2,
             "--no-figure",
             "--quiet",
@@ -315,7 +315,7 @@ class Map(InFolder):
             "mu=0:1.5",
             "--steps",
             10,
-            "--seeds",
+            "--replicates",
             8,
             "--no-figure",
             "--quiet",
@@ -340,7 +340,7 @@ class Map(InFolder):
             0.5,
             "--periods",
             12,
-            "--seeds",
+            "--replicates",
             8,
             "--no-figure",
             "--quiet",
@@ -367,9 +367,9 @@ class Map(InFolder):
             (["--quantity", "spin"], "--quantity"),
             ([], "no --x"),
             (["--x", "period=1:2"], "not an axis"),
-            (["--seeds", 2], "can only grow"),
+            (["--replicates", 2], "can only grow"),
             (["--to", 60], "--from and --to belong to maps of N_c"),
-            (["--steps", 5, "--seeds", 9], "no axis"),
+            (["--steps", 5, "--replicates", 9], "no axis"),
         ):
             self.assert_fails(2, "map", "--out", self.path("whole"), "--grow", *wrong, says=says)
 
@@ -424,7 +424,7 @@ class Map(InFolder):
             (["--y", "mu=0:1"], "--x"),
             (["--x", "mu=0:1", "--csv", self.path("m/plan.json")], "figure"),
             ([], "--x"),
-            (["--seeds", 4], "--x"),
+            (["--replicates", 4], "--x"),
             (["--x", "mu=0:1", "--seed", 3], "--seed"),
         ):
             self.assert_fails(2, "map", *wrong, "--out", self.path("m"), says=says)
@@ -482,7 +482,15 @@ class Figure(InFolder):
 
     def test_a_map_is_drawn_next_to_its_table(self):
         done = self.assert_works(
-            "map", "--x", "discs=6,12", "--periods", 10, "--seeds", 2, "--out", self.path("map")
+            "map",
+            "--x",
+            "discs=6,12",
+            "--periods",
+            10,
+            "--replicates",
+            2,
+            "--out",
+            self.path("map"),
         )
         self.assertIn("\n  table       " + self.path("map/map.csv") + "\n", done.stdout)
         for kind in ("png", "pdf"):
@@ -494,7 +502,7 @@ class Cluster(InFolder):
         slurm, environment = private_slurm.started_for(self, nodes=2)
         out = self.path("a map")
         call = [word for word in MAP if word not in ("--no-figure", "--quiet")]
-        self.assert_works(*call, "--out", out, "--slurm", "--nodes", 2, environment=environment)
+        self.assert_works(*call, "--out", out, "--slurm", "--tasks", 2, environment=environment)
 
         def is_over():
             status = swirl("map", "--out", out, "--status", environment=environment).stdout

@@ -84,7 +84,7 @@ class MovieTest(InFolder):
             "320x180",
             "--start",
             "1",
-            "--frame",
+            "--view",
             "both",
             "--plot",
             "--out",
@@ -172,9 +172,9 @@ class MovieTest(InFolder):
 
     def test_tiny_and_huge_movies_in_both_themes(self):
         for size, theme, more in (
-            ("16x16", "light", ["--frame", "both", "--plot", "--trails"]),
-            ("16x4096", "dark", ["--frame", "m", "--forces", "--plot"]),
-            ("3840x2160", "light", ["--frame", "both", "--color", "speed"]),
+            ("16x16", "light", ["--view", "both", "--plot", "--trails"]),
+            ("16x4096", "dark", ["--view", "m", "--forces", "--plot"]),
+            ("3840x2160", "light", ["--view", "both", "--color", "speed"]),
         ):
             out = self.path("x.mp4")
             result = swirl(
@@ -438,10 +438,10 @@ class MovieTest(InFolder):
         )
         self.assert_usage_error(swirl("--out", out, "--pace", "-1"))
         self.assert_usage_error(swirl("--out", out, "--start", "-3"), "-3")
-        self.assert_usage_error(swirl("--out", out, "--frame", "n"), "'n'", "both")
+        self.assert_usage_error(swirl("--out", out, "--view", "n"), "'n'", "both")
         self.assert_usage_error(swirl("--out", out, "--color", "red"), "'red'", "pinned")
         self.assert_usage_error(swirl("--out", out, "--theme", "x"), "'x'")
-        self.assert_usage_error(swirl("--out", out, "--forces"), "--frame m")
+        self.assert_usage_error(swirl("--out", out, "--forces"), "--view m")
         self.assert_usage_error(swirl("--out", out, "--discs", "70"))
         self.assert_usage_error(swirl("--out", out, "--compare", "70"))
         self.assert_usage_error(swirl("--out", out, "--rolling-ball", "2"), "2")

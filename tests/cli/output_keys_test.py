@@ -76,7 +76,7 @@ class OutputKeys(InFolder):
             4,
             "--warmup",
             1,
-            "--frames",
+            "--frames-per-period",
             128,
             "--trajectory",
             "t.h5",

@@ -112,7 +112,9 @@ class Overwriting(InFolder):
         recorded = [*call, "--trajectory", self.path("t.h5")]
         self.assert_works(*recorded, "--overwrite")
         self.assert_works(*recorded, "--resume")
-        self.assert_fails(1, *recorded, "--frames", 7, "--resume", says="r.json' already exists")
+        self.assert_fails(
+            1, *recorded, "--frames-per-period", 7, "--resume", says="r.json' already exists"
+        )
 
     def test_a_run_killed_between_its_series_and_its_result_is_repeated(self):
         # Before the first checkpoint such a run leaves its recordings and no result.

@@ -36,7 +36,7 @@ SHORTER = {
     "run": ["--events", "3000"],
     "crossing": ["--events", "3000", "--from", "34", "--to", "42", "--tolerance", "5"],
     "sweep": ["--threads", "2"],
-    "map": ["--steps", "3", "--periods", "3", "--seeds", "2", "--from", "34", "--to", "36"],
+    "map": ["--steps", "3", "--periods", "3", "--replicates", "2", "--from", "34", "--to", "36"],
     "movie": ["--seconds", "0.1", "--fps", "10", "--size", "320x180"],
     "image": [],
     "collect": [],
@@ -56,30 +56,30 @@ SHORTENED = (
     ("--tolerance 0.2", "--tolerance 5"),
     ("--grow --to 55", "--grow --to 40"),
     (
-        "--path circle,ellipse:0.8,ellipse:0.5,line",
-        "--path circle,ellipse:0.8,ellipse:0.5,line --events 3000",
+        "--motion circle,ellipse:0.8,ellipse:0.5,line",
+        "--motion circle,ellipse:0.8,ellipse:0.5,line --events 3000",
     ),
     ("--periods 200", "--periods 4 --warmup 1"),
     ("--periods 150", "--periods 2"),
     ("--periods 100", "--periods 8"),
     ("periods = 300", "periods = 1"),
-    ("seeds = 8", "seeds = 1"),
+    ("replicates = 8", "replicates = 1"),
     ('discs = "5:48"', 'discs = "46:48"'),
     ("mu = [0.1, 0.5, 1]", "mu = [0.5, 1]"),
     ("--range 1000:1999", "--range 100:199"),
     (
         "--discs 20 --out shaker.mp4",
         "--discs 20 --container-radius 6.5 --scale 12 --width 240 --height 240 "
-        "--frames-per-period 48 --length 2.2 --out shaker.mp4",
+        "--frames-per-period 48 --periods 2.2 --out shaker.mp4",
     ),
     (
-        "--discs 40 --mu 0.1:0.1:1 --periods 120 --warmup 20 --seeds 4 --chain mu",
-        "--discs 20 --mu 0.4:0.2:1 --periods 6 --warmup 2 --seeds 2 --chain mu",
+        "--discs 40 --mu 0.1:0.1:1 --periods 120 --warmup 20 --replicates 4 --chain mu",
+        "--discs 20 --mu 0.4:0.2:1 --periods 6 --warmup 2 --replicates 2 --chain mu",
     ),
     ("--x container_radius=5:9", "--x container_radius=8:9"),  # 36 discs fit
     (
-        "--x mu=0:2 --y amplitude=0.5:4 --steps 31 --seeds 32",
-        "--x mu=0:2 --y amplitude=0.5:4 --steps 3 --seeds 3",
+        "--x mu=0:2 --y amplitude=0.5:4 --steps 31 --replicates 32",
+        "--x mu=0:2 --y amplitude=0.5:4 --steps 3 --replicates 3",
     ),
 )
 # Calls that only the suite slow runs, or that no machine but the reader's can run.
@@ -176,7 +176,7 @@ SHOWN_FILES = {
     "shaker.csv": "t,x,y",
     "radii.csv": "radius,mass",
     "start.csv": "x,y,vx,vy,spin",
-    "points.csv": "discs,mu,seeds",
+    "points.csv": "discs,mu,replicates",
 }
 
 
@@ -320,7 +320,7 @@ class PagesAsShown(InFolder):
                     discs,
                     "--camera",
                     "phone",
-                    "--length",
+                    "--periods",
                     2,
                     "--out",
                     name,
@@ -329,7 +329,14 @@ class PagesAsShown(InFolder):
                 )
         if "swirl movie run.h5" in text:
             self.assert_works(
-                "run", "--periods", 45, "--frames", 60, "--trajectory", "run.h5", cwd=folder
+                "run",
+                "--periods",
+                45,
+                "--frames-per-period",
+                60,
+                "--trajectory",
+                "run.h5",
+                cwd=folder,
             )
 
     def test_blocks_work(self):

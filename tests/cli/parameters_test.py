@@ -11,6 +11,7 @@ import unittest
 
 from program import (
     HANG,
+    OPTION_OF_KEY,
     SOURCE,
     SWIRL,
     InFolder,
@@ -34,7 +35,7 @@ OTHER = {
     "inertia": "ring",
     "mixture": "2:1.2",
     "speed": "2",
-    "path": "circle",
+    "motion": "circle",
     "direction": "clockwise",
     "frictionless": "bulk",
     "sizes": "uniform:0.9:1.1",
@@ -95,7 +96,8 @@ def needed_by(name):
 class Everywhere(InFolder):
     def test_the_docs_list_all_parameters(self):
         self.assertGreater(len(GIVEN), 15)
-        self.assertLessEqual(set(result_of("--events", 10)["config"]), set(DEFAULTS))
+        keys = result_of("--events", 10)["config"]
+        self.assertLessEqual({OPTION_OF_KEY.get(key, key) for key in keys}, set(DEFAULTS))
 
     def test_help(self):
         text = help_of("run")
@@ -162,10 +164,10 @@ class Precedence(InFolder):
         return settings_in(done.stdout)
 
     def test_an_option_overrides_the_frame_times_of_the_file(self):
-        recorded = ["--trajectory", self.path("a.h5"), "--frames", "8"]
+        recorded = ["--trajectory", self.path("a.h5"), "--frames-per-period", "8"]
         settings = self.on_top_of(recorded, "--frame-interval", "0.5")
         self.assertEqual(settings["frame_interval"], "0.5")
-        self.assertNotIn("frames", settings)
+        self.assertNotIn("frames_per_period", settings)
 
     def test_a_list_overrides_the_value_of_the_file(self):
         write_text(

@@ -35,13 +35,17 @@ def text_of(value):
     return ":".join(map(str, value)) if isinstance(value, list) else str(value)
 
 
+# Keys of results whose option has another name.
+OPTION_OF_KEY = {"path": "motion", "path_phase": "start_angle"}
+
+
+def option_of(key):
+    return "--" + OPTION_OF_KEY.get(key, key).replace("_", "-")
+
+
 def options(scene):
     """The options of the command line for a scene."""
-    return [
-        word
-        for name, value in scene.items()
-        for word in (f"--{name.replace('_', '-')}", text_of(value))
-    ]
+    return [word for name, value in scene.items() for word in (option_of(name), text_of(value))]
 
 
 def slow(reason):

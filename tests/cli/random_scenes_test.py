@@ -67,7 +67,7 @@ def drawn(draw, max_discs):
     if draw.random() < 0.2:
         options["amplitude"] = 0
     if draw.random() < 0.2:
-        options["path"] = "circle"
+        options["motion"] = "circle"
     elif draw.random() < 0.2:
         options["sides"] = draw.choice([3, 4, 1000, 1000000])
     if draw.random() < 0.3:

@@ -32,7 +32,7 @@ RUN = [
     "5",
     "--seed",
     "3",
-    "--frames",
+    "--frames-per-period",
     "120",
     "--checkpoint-every",
     "0.01",
@@ -496,7 +496,17 @@ class Disk(InFolder):
 
     def test_a_disk_full_while_a_sweep_writes_keeps_finished_results(self):
         disk = self.small_disk("256k")
-        plan = ["sweep", "--discs", "5:30", "--seeds", "6", "--events", "1000", "--quiet", "--out"]
+        plan = [
+            "sweep",
+            "--discs",
+            "5:30",
+            "--replicates",
+            "6",
+            "--events",
+            "1000",
+            "--quiet",
+            "--out",
+        ]
         done = swirl(*plan, disk + "/s")  # 156 results of 4 kB
         self.assertEqual(done.returncode, 1)
         self.assertIn("No space left on device", done.stderr)
@@ -572,7 +582,7 @@ class Disk(InFolder):
             "sweep",
             "--discs",
             "5:48",
-            "--seeds",
+            "--replicates",
             "1000",
             "--events",
             "10000",
@@ -620,7 +630,7 @@ class Disk(InFolder):
             "sweep",
             "--discs",
             "5:48",
-            "--seeds",
+            "--replicates",
             "1000",
             "--events",
             "10000",

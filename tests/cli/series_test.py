@@ -146,7 +146,7 @@ class Series(InFolder):
             "live.csv",
             "--trajectory",
             "live.h5",
-            "--frames",
+            "--frames-per-period",
             1,
             "--quiet",
         )
@@ -245,7 +245,7 @@ class Chain(InFolder):
         8,
         "--warmup",
         2,
-        "--seeds",
+        "--replicates",
         2,
         "--chain",
         "mu",
@@ -364,7 +364,10 @@ class Chain(InFolder):
             (("--mu", "0.1,1", "--chain", "mu"), "needs runs of whole periods"),
             (("--mu", "1", "--periods", 5, "--chain", "mu"), "fewer than two values"),
             (("--inertia", "1,2", "--periods", 5, "--chain", "inertia"), "must be one of: mu"),
-            (("--mu", "0.1,1", "--periods", 5, "--chain", "mu", "--frames", 8), "--frames"),
+            (
+                ("--mu", "0.1,1", "--periods", 5, "--chain", "mu", "--frames-per-period", 8),
+                "--frames-per-period",
+            ),
         ):
             self.assert_fails(2, "sweep", *arguments, "--out", "bad", cwd=self.folder, says=part)
             self.assertFalse(os.path.exists(os.path.join(self.folder, "bad")))

@@ -119,7 +119,7 @@ class Stop(InFolder):
             240,
             "--frames-per-period",
             40,
-            "--length",
+            "--periods",
             1.2,
             "--quiet",
             "--out",

@@ -1,4 +1,4 @@
-"""--omit-paths: results and recordings without the folders of files."""
+"""--portable: results and recordings without the folders of files."""
 
 import os
 import subprocess
@@ -28,7 +28,7 @@ class StoredPaths(InFolder):
         self.assert_works(
             "run",
             os.path.join(folder, "a.toml"),
-            "--path=" + os.path.join(folder, "path.csv"),
+            "--motion=" + os.path.join(folder, "path.csv"),
             "--periods",
             4,
             "--warmup",
@@ -47,9 +47,9 @@ class StoredPaths(InFolder):
 
     def test_results_and_recordings_have_no_folders(self):
         self.assertIn(FOLDER.encode(), self.stored())
-        found = self.stored("--omit-paths")
+        found = self.stored("--portable")
         self.assertNotIn(FOLDER.encode(), found)
-        self.assertIn(b"swirl run a.toml --path=path.csv", found)
+        self.assertIn(b"swirl run a.toml --motion=path.csv", found)
 
     def test_only_folders_are_omitted(self):
         done = swirl(
@@ -69,7 +69,7 @@ class StoredPaths(InFolder):
             "--json",
             "-",
             "--quiet",
-            "--omit-paths",
+            "--portable",
         )
         self.assertIn("--sizes uniform:0.9:1 --ramp mu=0:1@1..2 ", done.stdout, done.stderr)
         self.assertIn("--series s.csv", done.stdout)
@@ -89,7 +89,7 @@ class StoredPaths(InFolder):
             240,
             "--height",
             240,
-            "--length",
+            "--periods",
             1.15,
             "--frames-per-period",
             64,
@@ -101,7 +101,7 @@ class StoredPaths(InFolder):
         )
         self.assertEqual(done.returncode, 0, done.stderr)
         out = self.path("tracks.h5")
-        done = swirl("track", video, "--out", out, "--quiet", "--omit-paths")
+        done = swirl("track", video, "--out", out, "--quiet", "--portable")
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         self.assertEqual(done.returncode, 0, done.stderr)

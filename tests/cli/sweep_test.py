@@ -24,7 +24,18 @@ from program import (
     write_text,
 )
 
-PLAN = ["sweep", "--discs", "5:12", "--mu", "0.5,1", "--seeds", "3", "--events", "20000", "--quiet"]
+PLAN = [
+    "sweep",
+    "--discs",
+    "5:12",
+    "--mu",
+    "0.5,1",
+    "--replicates",
+    "3",
+    "--events",
+    "20000",
+    "--quiet",
+]
 POINTS = 48
 
 
@@ -107,13 +118,13 @@ class Sweep(InFolder):
             "sweep",
             "--discs",
             "8,20",
-            "--seeds",
+            "--replicates",
             "2",
             "--events",
             "20000",
             "--measure",
             "slip,radial",
-            "--frames",
+            "--frames-per-period",
             "4",
             "--quiet",
             "--out",
@@ -213,7 +224,7 @@ class Sweep(InFolder):
         )
         for wrong, says in ((["--discs", 9], "table of points"), (["--chain", "mu"], "--chain")):
             self.assert_fails(2, "sweep", "--out", self.path("a"), "--grow", *wrong, says=says)
-        done = swirl("sweep", "--out", self.path("a"), "--grow", "--seeds", 2, "--dry-run")
+        done = swirl("sweep", "--out", self.path("a"), "--grow", "--replicates", 2, "--dry-run")
         self.assertIn(
             "7 runs:\n  table of 3 points\n  discs: 5 6 7\n  events: 3000 3000 3000\n"
             "  replicates: 2 3 2\n",
@@ -393,7 +404,7 @@ class Sweep(InFolder):
             "5,7:9",
             "--mu",
             "1",
-            "--seeds",
+            "--replicates",
             "1",
             "--events",
             "20000",
@@ -420,8 +431,8 @@ class Sweep(InFolder):
 
         self.assertEqual(grow("--discs", "6"), 1)
         self.assertEqual(grow("--discs", "6"), 0)
-        self.assertEqual(grow("--mu", "0.5", "--seeds", 2), 15)
-        self.assertEqual(grow("--discs", "10:12", "--seeds", 3), 28)
+        self.assertEqual(grow("--mu", "0.5", "--replicates", 2), 15)
+        self.assertEqual(grow("--discs", "10:12", "--replicates", 3), 28)
         # The table is bytewise identical to that of a single call.
         self.assertEqual(self.table(self.path("a")), table)
         # A call with only the folder continues the grown sweep.
@@ -430,8 +441,8 @@ class Sweep(InFolder):
         self.assertEqual(self.table(self.path("a")), table)
         for wrong, says in (
             (["--restitution", "0.9"], "not a parameter of this sweep"),
-            (["--seeds", 1], "can only grow"),
-            (["--frames", 3], "--frames"),
+            (["--replicates", 1], "can only grow"),
+            (["--frames-per-period", 3], "--frames-per-period"),
             (["--discs", "5.0"], "the same run"),
             (["--sieze", "3"], "--sieze"),
         ):
@@ -483,7 +494,7 @@ class Sweep(InFolder):
             1,
             "--events",
             "1e5",
-            "--seeds",
+            "--replicates",
             2,
             "--out",
             self.path("a"),
@@ -685,7 +696,7 @@ class Sweep(InFolder):
             "5:7",
             "--periods",
             3,
-            "--frames",
+            "--frames-per-period",
             4,
             "--series",
             "--out",
@@ -757,7 +768,7 @@ class Sweep(InFolder):
             2,
             "--events",
             5,
-            "--seeds",
+            "--replicates",
             4000,
             "--out",
             self.path("a"),

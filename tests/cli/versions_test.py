@@ -203,7 +203,7 @@ class Version1(OldFiles):
             "sweep",
             "--discs",
             "5,8",
-            "--seeds",
+            "--replicates",
             2,
             "--periods",
             12,

@@ -21,7 +21,7 @@ SWEEP = [
         "3",
         "--warmup",
         "1",
-        "--frames",
+        "--frames-per-period",
         "4",
         "--series",
         "--out",
@@ -68,7 +68,7 @@ MAP = [
         "4",
         "--warmup",
         "1",
-        "--seeds",
+        "--replicates",
         "2",
         "--no-figure",
         "--out",
@@ -90,7 +90,7 @@ MAP_OF_N_C = [
         "3",
         "--warmup",
         "1",
-        "--seeds",
+        "--replicates",
         "2",
         "--no-figure",
         "--out",
@@ -119,7 +119,7 @@ CROSSING = [
     ]
 ]
 # Stopped in the middle of a run, so that the folder has a checkpoint and an unfinished recording.
-LONG = ["--discs", "8", "--periods", "40", "--warmup", "1", "--frames", "8"]
+LONG = ["--discs", "8", "--periods", "40", "--warmup", "1", "--frames-per-period", "8"]
 STOPPED_SWEEP = [
     ["sweep", *LONG, "--mu", "0.1,0.5,1", "--series", "--out", "FOLDER"],
     ["collect", "FOLDER"],

@@ -23,8 +23,8 @@ TEST(ShortValues, LongValuesKeepTheirBeginningAndTheirEnd) {
     EXPECT_EQ(with_short_values("--discs is '" + digits + "', but it must be 5.\nhint: give 5."),
               "--discs is '" + kept + "', but it must be 5.\nhint: give 5.");
     EXPECT_EQ(
-        with_short_values("--path is 'points " + digits + " 1:0:1', but it is not closed."),
-        "--path is '" + shortened("points " + digits + " 1:0:1") + "', but it is not closed.");
+        with_short_values("--motion is 'points " + digits + " 1:0:1', but it is not closed."),
+        "--motion is '" + shortened("points " + digits + " 1:0:1") + "', but it is not closed.");
 }
 
 TEST(ShortValues, OrdinaryMessagesAndPathsStay) {

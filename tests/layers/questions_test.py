@@ -23,7 +23,7 @@ ANSWERS = {
     "How accurate is the tracking?": ("±",),
     "How do I set up camera and dish?": ("camera", "light"),
     "My friction coefficient is unknown: what now?": ("N_c", "μ"),
-    "My shaker does not move on a circle": ("--path",),
+    "My shaker does not move on a circle": ("--motion",),
     "My particles have several sizes": ("--mixture", "--sizes"),
     "How do I compare my tracks with a simulation?": ("swirl experiment",),
     "What exactly is simulated?": ("collision",),

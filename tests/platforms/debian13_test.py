@@ -135,7 +135,7 @@ class Debian13(unittest.TestCase):
             "20",
             "--periods",
             "20000",
-            "--frames",
+            "--frames-per-period",
             "1",
             "--quiet",
             "--trajectory",

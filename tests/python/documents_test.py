@@ -14,7 +14,7 @@ from scenes import SOURCE
 
 # Shorter calls, as in tests/cli/pages_test.py.
 SHORTENED = (
-    ("seeds=3, periods=150", "seeds=3, periods=5"),
+    ("replicates=3, periods=150", "replicates=3, periods=5"),
     ("crossing(mu=1)", "crossing(mu=1, min_discs=34, max_discs=42, tolerance=5)"),
 )
 PAGES = ("docs/tutorials/python.md", "docs/how-to/own_measurement.md")

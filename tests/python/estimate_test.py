@@ -117,7 +117,9 @@ def correlated(runs, tmp_path):
         unit="Ω",
         _sources=longer.measured["<lambda>"]["value"]._sources,
     )
-    swirl.run(discs=24, periods=40, warmup=4, seed=1, trajectory=tmp_path / "a.h5", frames=200)
+    swirl.run(
+        discs=24, periods=40, warmup=4, seed=1, trajectory=tmp_path / "a.h5", frames_per_period=200
+    )
     yield a, rate(swirl.analyse(swirl.Trajectory(tmp_path / "a.h5")))
     frames = swirl.Simulation(discs=24).sample(periods=5)
     yield rate(swirl.analyse(frames)), rate(swirl.analyse(frames, warmup=2))

@@ -65,7 +65,7 @@ SHOWN = [
     dict(mixture="20%:1.3"),
     dict(discs=5, sizes=np.linspace(0.8, 1.2, 5)),
     dict(discs=40, cannot_spin=0.5),
-    dict(path="ellipse:0.5"),
+    dict(motion="ellipse:0.5"),
     dict(ramp="amplitude=1:2@20..220"),
 ]
 

@@ -17,7 +17,7 @@ SCENE = dict(discs=20, seed=3, periods=12, warmup=2)
 @pytest.fixture(scope="module")
 def file(tmp_path_factory):
     file = tmp_path_factory.mktemp("recorded") / "frames.h5"
-    swirl.run(**SCENE, trajectory=file, frames=511)
+    swirl.run(**SCENE, trajectory=file, frames_per_period=511)
     return file
 
 
@@ -115,7 +115,7 @@ def test_sampled_frames_can_be_analysed(file):
         theirs.rotation.mean_by_time.mean, rel=1e-3
     )
     square = [[2, 2], [-2, 2], [-2, -2], [2, -2]]
-    custom = swirl.Simulation(discs=20, path=square)
+    custom = swirl.Simulation(discs=20, motion=square)
     found = swirl.analyse(custom.sample(30), "all", warmup=5)
     assert found.frames == 25 * 511 and found.rotation.mean_by_time.blocks == 25
     assert set(found.measured) < set(swirl.measurements()) and "density" in found.measured

@@ -143,8 +143,8 @@ BAD = [
     dict(mixture="12"),
     dict(mixture=(12, 0)),
     dict(mixture=(60, 1.2)),
-    dict(path="square"),
-    dict(path="circle", sides=7),
+    dict(motion="square"),
+    dict(motion="circle", sides=7),
     dict(sides=2),
     dict(events=10, periods=3),
     dict(periods=3, warmup=3),
@@ -155,9 +155,9 @@ BAD = [
     dict(period=0),
     dict(amplitude=1e9),
     dict(preset="other"),
-    dict(body="sphere", path="circle"),
+    dict(body="sphere", motion="circle"),
     dict(body="sphere", discs=65),
-    dict(floor="sliding", path="circle"),
+    dict(floor="sliding", motion="circle"),
     dict(contact_duration=100),
     dict(events=0),
     dict(events=1e20),
@@ -427,9 +427,11 @@ def test_recordings_equal_those_of_the_command_line(tmp_path):
 
     scene = dict(discs=12, events=20000)
     ours = swirl.run(
-        **scene, trajectory=tmp_path / "ours.h5", frames=20, event_log=tmp_path / "e.h5"
+        **scene, trajectory=tmp_path / "ours.h5", frames_per_period=20, event_log=tmp_path / "e.h5"
     )
-    done = command("run", *options(scene), "--trajectory", tmp_path / "theirs.h5", "--frames", 20)
+    done = command(
+        "run", *options(scene), "--trajectory", tmp_path / "theirs.h5", "--frames-per-period", 20
+    )
     assert done.returncode == 0, done.stderr
     with h5py.File(tmp_path / "ours.h5") as a, h5py.File(tmp_path / "theirs.h5") as b:
         path = "particles/trajectory/position/value"
@@ -492,7 +494,7 @@ def test_a_ramp_is_rejected_where_it_cannot_be():
         swirl.run(ramp="inertia=1:2@3..4")
     square = [(1, 1), (-1, 1), (-1, -1), (1, -1)]
     with pytest.raises(ValueError, match="path defines the path"):
-        swirl.Simulation(discs=5, path=square, ramp="amplitude=1:2@3..4")
+        swirl.Simulation(discs=5, motion=square, ramp="amplitude=1:2@3..4")
     with pytest.raises(ValueError, match="needs a steady state"):
         swirl.crossing(ramp="mu=0:1@3..4")
     with pytest.raises(ValueError, match="must end in .csv"):

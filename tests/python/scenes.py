@@ -21,7 +21,8 @@ def options(scene):
     words = []
     for name, value in scene.items():
         text = ":".join(map(str, value)) if isinstance(value, tuple) else str(value)
-        words += ["--" + name.replace("_", "-"), text]
+        option = {"path": "motion"}.get(name, name)
+        words += ["--" + option.replace("_", "-"), text]
     return words
 
 

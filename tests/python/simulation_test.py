@@ -111,8 +111,8 @@ def test_times_in_a_ramp_of_the_period_are_sums_of_its_periods():
 
 def test_a_custom_path_is_kept_by_other_ramps():
     square = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-    sim = swirl.Simulation(discs=12, path=square, ramp="mu=0:1@1..3")
-    steady = swirl.Simulation(discs=12, path=square, mu=0)
+    sim = swirl.Simulation(discs=12, motion=square, ramp="mu=0:1@1..3")
+    steady = swirl.Simulation(discs=12, motion=square, mu=0)
     for each in (sim, steady):
         each.advance(periods=1)
     assert sim.state_hash == steady.state_hash
@@ -227,7 +227,7 @@ def test_samples_equal_snapshots():
 
 
 def test_m_frame_agrees_with_its_definition():
-    sim = swirl.Simulation(discs=30, path="circle")
+    sim = swirl.Simulation(discs=30, motion="circle")
     sim.advance(periods=3.3)
     s = sim.snapshot()
     m = s.m_frame()
@@ -277,8 +277,8 @@ def test_simulation_from_a_snapshot_continues_identically():
 def test_custom_polygon_equals_the_papers():
     first = swirl.Simulation(discs=30)
     path = first.container_path()
-    again = swirl.Simulation(discs=30, path=path[:, 1:], path_times=path[:, 0])
-    even = swirl.Simulation(discs=30, path=path[:, 1:])
+    again = swirl.Simulation(discs=30, motion=path[:, 1:], motion_times=path[:, 0])
+    even = swirl.Simulation(discs=30, motion=path[:, 1:])
     for sim in (first, again, even):
         sim.advance(periods=0.5)
     # Speeds are computed from differences of vertices and times, so rounding errors may differ.
@@ -310,7 +310,7 @@ def test_the_polygon_as_an_array_gives_the_bitwise_identical_run(tmp_path):
 
 def test_a_run_takes_a_path_sizes_and_states_as_arrays():
     triangle = np.array([[0, 1, 0], [4, -1, 1], [8, -1, -1], [12, 1, 0]], dtype=float)
-    run = swirl.run(discs=10, path=triangle, events=3000)
+    run = swirl.run(discs=10, motion=triangle, events=3000)
     assert run.config["period"] == 12 and run.config["path"].startswith("points 0")
     assert swirl.run(discs=10, path=run.config["path"], events=3000).state_hash == run.state_hash
     sizes = swirl.run(sizes=[1, 0.5, 0.8], events=1000)
@@ -330,15 +330,15 @@ def test_a_run_takes_a_path_sizes_and_states_as_arrays():
     with pytest.raises(ValueError, match="initial and position are both given"):
         swirl.Simulation(initial=states, position=start.position)
     with pytest.raises(ValueError, match="times must increase"):
-        swirl.run(discs=3, path=triangle[[0, 2, 1, 3]])
+        swirl.run(discs=3, motion=triangle[[0, 2, 1, 3]])
     with pytest.raises(ValueError, match="not closed"):
-        swirl.run(discs=3, path=triangle[:3])
+        swirl.run(discs=3, motion=triangle[:3])
     with pytest.raises(TypeError, match="columns t, x and y"):
-        swirl.run(discs=3, path=[[0, 1], [1, 2]])
-    with pytest.raises(ValueError, match="path_times is given, but path has"):
-        swirl.Simulation(discs=3, path=triangle, path_times=[0, 4, 8])
+        swirl.run(discs=3, motion=[[0, 1], [1, 2]])
+    with pytest.raises(ValueError, match="motion_times is given, but motion has"):
+        swirl.Simulation(discs=3, motion=triangle, motion_times=[0, 4, 8])
     with pytest.raises(ValueError, match="M-frame"):
-        swirl.run(discs=3, path="line", measure="slip", events=100)
+        swirl.run(discs=3, motion="line", measure="slip", events=100)
 
 
 def test_particles_that_cannot_spin():
@@ -370,7 +370,7 @@ def test_radii_without_masses_are_of_one_material():
 
 def test_container_follows_a_custom_path():
     square = np.array([[2, 2], [-2, 2], [-2, -2], [2, -2]], dtype=float)
-    sim = swirl.Simulation(discs=20, path=square, period=16)
+    sim = swirl.Simulation(discs=20, motion=square, period=16)
     frames = sim.sample(periods=3, per_period=16)
     np.testing.assert_allclose(
         frames.container_centre[:5], [[2, 2], [1, 2], [0, 2], [-1, 2], [-2, 2]], atol=1e-12
@@ -424,7 +424,7 @@ arrays = st.one_of(
                 "mass",
                 "inertia",
                 "path",
-                "path_times",
+                "motion_times",
                 "mu",
                 "discs",
             ]
@@ -460,7 +460,7 @@ two = [[1.0, 0.0], [4.0, 0.0]]
         ),
         (dict(position=[[0, 0, 0]]), "position has shape 1 × 3, but it must be N × 2"),
         (dict(position=3), "position has shape one number, but"),
-        (dict(path=3), "path has shape one number, but"),
+        (dict(motion=3), "motion has shape one number, but"),
         (dict(position=[]), "position has shape 0, but it must be N × 2"),
         (dict(position=np.zeros((0, 2))), "at least one disc"),
         (dict(position=[[0, float("nan")]]), "y of disc 0 is nan"),
@@ -478,17 +478,17 @@ two = [[1.0, 0.0], [4.0, 0.0]]
         (dict(position=two, discs=2), "discs and position are both given"),
         (dict(velocity=two), "velocity is given for each disc, but position is not"),
         (dict(position=two, body="sphere"), "only for discs without a floor"),
-        (dict(path=[[0, 0]]), "at least two"),
-        (dict(path=[[1, 1], [1, 1]]), "the same point"),
-        (dict(path=[[0, 0], [1, 0], [1, 0]]), "consecutive vertices must differ"),
-        (dict(path=two, path_times=[0, 20]), "times must increase"),
-        (dict(path=two, path_times=[1, 2]), "begins with 1"),
-        (dict(path=two, path_times=[0, 1, 2]), "path_times has shape 3, but"),
-        (dict(path=[[0, 0], [1e9, 0]]), "path contains 1000000000"),
+        (dict(motion=[[0, 0]]), "at least two"),
+        (dict(motion=[[1, 1], [1, 1]]), "the same point"),
+        (dict(motion=[[0, 0], [1, 0], [1, 0]]), "consecutive vertices must differ"),
+        (dict(motion=two, motion_times=[0, 20]), "times must increase"),
+        (dict(motion=two, motion_times=[1, 2]), "begins with 1"),
+        (dict(motion=two, motion_times=[0, 1, 2]), "motion_times has shape 3, but"),
+        (dict(motion=[[0, 0], [1e9, 0]]), "motion contains 1000000000"),
         (dict(position=two, spin=1e200), "spin of disc 0 is 1e"),
-        (dict(path=two, amplitude=2), "both define the path"),
-        (dict(path_times=[0, 1]), "path_times is given, but path is not"),
-        (dict(path="spiral"), "path is 'spiral'"),
+        (dict(motion=two, amplitude=2), "both define the path"),
+        (dict(motion_times=[0, 1]), "motion_times is given, but motion is not"),
+        (dict(motion="spiral"), "motion is 'spiral'"),
         (dict(position=two, mu=-1), "mu is '-1'"),
     ],
 )
@@ -504,7 +504,7 @@ def test_invalid_custom_scenes_are_rejected(wrong, message):
         dict(position=[["a", "b"]]),
         dict(position=[[1], [2, 3]]),
         dict(position=two, spin=object()),
-        dict(path=[[1j, 0], [0, 0]]),
+        dict(motion=[[1j, 0], [0, 0]]),
         dict(position=np.array(two, dtype=object)),
         dict(nonsense=3),
         dict(mu=[1, 2]),
@@ -597,7 +597,7 @@ def test_forged_archives_are_rejected_or_continue(custom, tmp_path):
     sim = (
         swirl.Simulation(discs=3, seed=2, sides=3)
         if not custom
-        else swirl.Simulation(position=[[0, 0], [3, 0], [0, 3]], path=[[0, 0], [2, 1], [-1, 2]])
+        else swirl.Simulation(position=[[0, 0], [3, 0], [0, 3]], motion=[[0, 0], [2, 1], [-1, 2]])
     )
     sim.advance(events=1000)
     sim.save(tmp_path / "good")

@@ -31,7 +31,7 @@ def test_sweep_equals_that_of_the_command_line(tmp_path):
         discs=range(5, 8),
         mu=[0.1, 0.5],
         events=5000,
-        seeds=2,
+        replicates=2,
         measure=["slip", "density"],
     )
     done = command(
@@ -42,7 +42,7 @@ def test_sweep_equals_that_of_the_command_line(tmp_path):
         "0.1,0.5",
         "--events",
         "5000",
-        "--seeds",
+        "--replicates",
         "2",
         "--measure",
         "slip,density",
@@ -58,20 +58,20 @@ def test_sweep_equals_that_of_the_command_line(tmp_path):
     # Python and the command line can continue each other's sweeps.
     again = command("sweep", "--out", tmp_path / "ours", "--quiet")
     assert again.returncode == 0
-    more = swirl.sweep(tmp_path / "theirs", discs=[8], seeds=3, grow=True)
+    more = swirl.sweep(tmp_path / "theirs", discs=[8], replicates=3, grow=True)
     assert len(more) == 8 and more.attrs["runs"]["done"] == 24
     pandas.testing.assert_frame_equal(swirl.sweep(tmp_path / "theirs"), more)
 
 
-TABLE = [{"discs": 5, "mu": 0.5}, {"discs": 7, "mu": 0.1, "seeds": 3}]
+TABLE = [{"discs": 5, "mu": 0.5}, {"discs": 7, "mu": 0.1, "replicates": 3}]
 
 
 @pytest.mark.parametrize(
     "points",
     (
         TABLE,
-        pandas.DataFrame({"discs": [5, 7], "mu": [0.5, 0.1], "seeds": [1, 3]}),
-        {"discs": np.array([5, 7]), "mu": (0.5, 0.1), "seeds": [None, 3]},
+        pandas.DataFrame({"discs": [5, 7], "mu": [0.5, 0.1], "replicates": [1, 3]}),
+        {"discs": np.array([5, 7]), "mu": (0.5, 0.1), "replicates": [None, 3]},
     ),
 )
 def test_a_table_of_points_equals_that_of_the_command_line(tmp_path, points):
@@ -95,7 +95,7 @@ def test_a_table_of_points_equals_that_of_the_command_line(tmp_path, points):
     # Points that a row does not give have the default.
     more = swirl.sweep(
         tmp_path / "ours",
-        points=[{"discs": 6, "seeds": 2}, {**TABLE[0], "seeds": 2}],
+        points=[{"discs": 6, "replicates": 2}, {**TABLE[0], "replicates": 2}],
         events=3000,
         grow=True,
     )
@@ -125,7 +125,7 @@ def test_a_table_of_points_equals_that_of_the_command_line(tmp_path, points):
         ([{"discs": 5}, {"discs": [6]}], TypeError, "points, row 2: discs is"),
         ([{"discs": 5}, {"discs": True}], TypeError, "points, row 2: discs is"),
         ([{"discs": 5, "mu": ""}], ValueError, "points, row 1: mu is empty"),
-        ([{"discs": 5, "seeds": 1.5}], ValueError, "points, row 1: seeds is '1.5'"),
+        ([{"discs": 5, "replicates": 1.5}], ValueError, "points, row 1: replicates is '1.5'"),
         (
             [{"discs": 5}, {"discs": 5.0}],
             ValueError,
@@ -178,11 +178,11 @@ def test_different_sweep_in_the_same_folder_is_rejected(tmp_path):
         (dict(discs="5:x"), ValueError, "discs"),
         (dict(discs=[5, 900]), ValueError, "900 discs do not fit"),
         (dict(mu=[0.1, None]), TypeError, "mu"),
-        (dict(discs=[5], seeds=0), ValueError, "seeds is 0"),
-        (dict(discs=[5], seeds=1.5), TypeError, "seeds"),
+        (dict(discs=[5], replicates=0), ValueError, "replicates is 0"),
+        (dict(discs=[5], replicates=1.5), TypeError, "replicates"),
         (dict(discs=[5], measure="nothing"), ValueError, "measure has 'nothing'"),
         (dict(discs=[5], measure=[print]), TypeError, "swirl.map"),
-        (dict(discs=[5], frames=10), ValueError, "frames is given, but out"),
+        (dict(discs=[5], frames_per_period=10), ValueError, "frames_per_period is given, but out"),
         (dict(disks=[5]), TypeError, "did you"),
         (dict(discs=[5], threads=-1), ValueError, "threads"),
         (dict(discs=[True]), TypeError, "True"),
@@ -195,7 +195,13 @@ def test_invalid_sweeps_are_rejected(wrong, kind, message):
 
 def test_a_chain_equals_that_of_the_command_line(tmp_path):
     ours = swirl.sweep(
-        tmp_path / "ours", discs=12, mu=[0.2, 0.6, 1], periods=6, seeds=2, chain="mu", series=True
+        tmp_path / "ours",
+        discs=12,
+        mu=[0.2, 0.6, 1],
+        periods=6,
+        replicates=2,
+        chain="mu",
+        series=True,
     )
     done = command(
         "sweep",
@@ -205,7 +211,7 @@ def test_a_chain_equals_that_of_the_command_line(tmp_path):
         "0.2,0.6,1",
         "--periods",
         6,
-        "--seeds",
+        "--replicates",
         2,
         "--chain",
         "mu",
@@ -239,7 +245,10 @@ def test_a_chain_equals_that_of_the_command_line(tmp_path):
 @pytest.mark.parametrize(
     "wrong, message",
     [
-        (dict(mu=[0.1, 1], periods=4, chain="mu", frames=8), "chain and frames cannot be combined"),
+        (
+            dict(mu=[0.1, 1], periods=4, chain="mu", frames_per_period=8),
+            "chain and frames_per_period cannot be combined",
+        ),
         (dict(mu=[0.1, 1], chain="amplitude"), "amplitude"),
         (dict(mu=[0.1, 1], chain="mu", grow=True), "chain and series cannot be used with grow"),
     ],
@@ -366,7 +375,7 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
         y="discs=4:40",
         steps=5,
         level=0.5,
-        seeds=4,
+        replicates=4,
         periods=12,
         progress=lambda *numbers: reported.append(numbers),
     )
@@ -380,7 +389,7 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
         5,
         "--level",
         0.5,
-        "--seeds",
+        "--replicates",
         4,
         "--periods",
         12,
@@ -399,7 +408,7 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
     again = swirl.parameter_map(tmp_path / "theirs")
     pandas.testing.assert_frame_equal(ours, again, check_exact=True)
     # Both grow alike, and keep their runs.
-    larger = swirl.parameter_map(tmp_path / "ours", grow=True, x="mu=0:1.5", steps=7, seeds=8)
+    larger = swirl.parameter_map(tmp_path / "ours", grow=True, x="mu=0:1.5", steps=7, replicates=8)
     done = command(
         "map",
         "--out",
@@ -409,7 +418,7 @@ def test_parameter_map_equals_that_of_the_command_line(tmp_path):
         "mu=0:1.5",
         "--steps",
         7,
-        "--seeds",
+        "--replicates",
         8,
         "--no-figure",
         "--quiet",
@@ -439,7 +448,7 @@ def test_the_range_of_a_map_of_crossings_grows(tmp_path):
 def test_failed_runs_of_a_map_are_reported():
     with pytest.warns(swirl.SweepWarning, match="inelastic collapse"):
         table = swirl.parameter_map(
-            x=("restitution", [0.1, 1]), contact_duration=0, periods=10, seeds=2
+            x=("restitution", [0.1, 1]), contact_duration=0, periods=10, replicates=2
         )
     assert table["failed"].tolist() == [2, 0]
 
@@ -448,14 +457,14 @@ def test_failed_runs_of_a_map_are_reported():
     "wrong, kind",
     [
         (dict(), ValueError),
-        (dict(seeds=3), ValueError),
+        (dict(replicates=3), ValueError),
         (dict(x="mu"), TypeError),
         (dict(x=("mu", 1, 2)), TypeError),
         (dict(x="mu=1:0"), ValueError),
         (dict(x="mu=0:1", y="mu=0:1"), ValueError),
         (dict(x="mu=0:1", quantity="slip"), ValueError),
         (dict(x="mu=0:1", steps=1), ValueError),
-        (dict(x="mu=0:1", seeds=0), ValueError),
+        (dict(x="mu=0:1", replicates=0), ValueError),
         (dict(x="mu=0:1", discs=[3, 4]), TypeError),
         (dict(x="mu=0:1", quantity="N_c", discs=30), ValueError),
     ],
@@ -472,7 +481,7 @@ def test_map_has_the_seeds_of_a_sweep(tmp_path):
         discs=[5, 9],
         mu=[0.1, 1],
         events=4000,
-        seeds=2,
+        replicates=2,
         measure=["slip"],
         progress=lambda done, runs: reported.append((done, runs)),
     )
@@ -488,7 +497,7 @@ def test_map_has_the_seeds_of_a_sweep(tmp_path):
         "0.1,1",
         "--events",
         "4000",
-        "--seeds",
+        "--replicates",
         "2",
         "--out",
         tmp_path,
@@ -572,18 +581,18 @@ def test_points_are_compared_with_a_table(tmp_path):
 
 
 def test_a_sweep_in_steps_is_that_of_one_call(tmp_path):
-    points = [{"discs": 8}, {"discs": 12, "seeds": 2}]
+    points = [{"discs": 8}, {"discs": 12, "replicates": 2}]
     whole = swirl.sweep(tmp_path / "whole", points=points, measure="slip", events=3000)
     steps = swirl.SweepFolder(tmp_path / "steps")
     assert not steps.is_planned and "without a plan" in repr(steps)
     steps.plan(points=[{"discs": 8, "events": 3000}], measure=["slip"])
-    steps.grow(points=[{"discs": 12, "seeds": 2, "events": 3000}])
+    steps.grow(points=[{"discs": 12, "replicates": 2, "events": 3000}])
     with pytest.raises(swirl.Failure, match="holds another sweep"):
         steps.plan(points=[{"discs": 9}])
     counts = steps.run(points=[{"discs": 8, "events": 3000}], threads=1)
     assert counts == (1, 0, 0, "")
     done, planned = steps.files(
-        [{"discs": 8, "events": 3000}, {"discs": 12, "seeds": 2, "events": 3000}]
+        [{"discs": 8, "events": 3000}, {"discs": 12, "replicates": 2, "events": 3000}]
     )
     assert [os.path.exists(file.result) for file in [*done, *planned]] == [True, False, False]
     assert steps.files([{"discs": 9, "events": 3000}]) == [[]]
@@ -620,8 +629,8 @@ def test_a_series_and_directions_have_the_means_of_the_program():
 
 
 def test_mean_is_the_mean_of_a_sweep(tmp_path):
-    table = swirl.sweep(tmp_path / "sweep", discs=8, events=[3000], warmup=1, seeds=3)
-    found = swirl.map(discs=8, events=[3000], warmup=1, seeds=3)
+    table = swirl.sweep(tmp_path / "sweep", discs=8, events=[3000], warmup=1, replicates=3)
+    found = swirl.map(discs=8, events=[3000], warmup=1, replicates=3)
     rates = [run.rotation.mean_by_time for run in found]
     mean = swirl.mean(
         [r.mean for r in rates],

@@ -28,7 +28,7 @@ VIDEO = [
     "14",
     "--seed",
     "3",
-    "--length",
+    "--periods",
     "1.1",
 ]
 

@@ -471,7 +471,6 @@ TEST(Theme, InkHasContrastToThePage) {
         EXPECT_GT(std::abs(brightness(theme.faint_ink) - brightness(theme.page)), 0.4);
         EXPECT_GT(std::abs(brightness(theme.pinned) - brightness(theme.loose)), 0.05);
     }
-    EXPECT_FALSE(theme_named("sepia"));
 }
 
 }  // namespace

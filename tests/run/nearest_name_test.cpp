@@ -1,7 +1,7 @@
 // Suggestions for names that do not exist.
 #include <gtest/gtest.h>
 
-#include "swirl/run/reading.hpp"
+#include "swirl/run/names.hpp"
 
 namespace swirl {
 namespace {
@@ -47,11 +47,37 @@ TEST(NearestName, FindsTheNameOfEqualMeaning) {
 }
 
 TEST(NearestName, FindsTheNewNameOfAnOldOneInEachCommand) {
-    EXPECT_EQ(nearest_name("--frames", {"--frame", "--frame-files"}), "--frame-files");
+    EXPECT_EQ(nearest_name("--frames", {"--frame-interval", "--frames-per-period"}),
+              "--frames-per-period");
+    EXPECT_EQ(nearest_name("--frames", {"--view", "--frame-files"}), "--frame-files");
     EXPECT_EQ(nearest_name("--frames", {"--fps", "--max-frames"}), "--max-frames");
-    EXPECT_EQ(nearest_name("frames", {"frame", "frame_files"}), "frame_files");
+    EXPECT_EQ(nearest_name("frames", {"view", "frame_files"}), "frame_files");
+    EXPECT_EQ(nearest_name("--path", {"--mu", "--motion"}), "--motion");
+    EXPECT_EQ(nearest_name("--path", {"--out", "--motion-out"}), "--motion-out");
+    EXPECT_EQ(nearest_name("--seeds", {"--seed", "--replicates"}), "--replicates");
+    EXPECT_EQ(nearest_name("--seeds", {"--seed", "--events"}), "--seed");
     EXPECT_EQ(nearest_name("--of", {"--x", "--quantity"}), "--quantity");
     EXPECT_EQ(nearest_name("by_time", {"mean_by_time", "rigid_by_time"}), "mean_by_time");
+}
+
+// Files may have the former names of options. Other words are suggestions only.
+TEST(PresentName, IsTheOptionOfAFormerOne) {
+    EXPECT_EQ(present_name("frames", {"frame_interval", "frames_per_period"}), "frames_per_period");
+    EXPECT_EQ(present_name("path", {"mu", "motion"}), "motion");
+    EXPECT_EQ(present_name("path-phase", {"mu", "start_angle"}), "start_angle");
+    EXPECT_EQ(present_name("start-angle", {"mu", "start_angle"}), "start_angle");
+    EXPECT_EQ(present_name("frame", {"view", "frame"}), "frame");
+    EXPECT_EQ(present_name("colour", {"color"}), "color");
+    EXPECT_EQ(present_name("output", {"out"}), std::nullopt);
+    EXPECT_EQ(present_name("length", {"periods"}), std::nullopt);
+}
+
+TEST(OptionName, IsNotTheKeyForTheMotionOfTheContainer) {
+    EXPECT_EQ(option_name("mu_disc"), "--mu-disc");
+    EXPECT_EQ(option_name("path"), "--motion");
+    EXPECT_EQ(option_name("path_phase"), "--start-angle");
+    EXPECT_EQ(plain_name("start-angle"), "path_phase");
+    EXPECT_EQ(user_name("path"), "motion");
 }
 
 }  // namespace

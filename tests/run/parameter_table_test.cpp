@@ -30,13 +30,17 @@ std::string range_of(const Parameter& p) {
 }
 
 std::string documentation_of(const Parameter& p) {
-    return *p.details ? fmt::format("{}. {}", p.description, p.details) : p.description;
+    std::string text = p.description;
+    if (*p.details) text += fmt::format(". {}", p.details);
+    if (user_name(p.name) != p.name)
+        text += fmt::format("{} Its key in results is `{}`.", *p.details ? "" : ".", p.name);
+    return text;
 }
 
 std::string row(const Parameter& p) {
     const std::string range = range_of(p), separator = range.empty() || !*p.unit ? "" : " ";
-    return fmt::format("| `{}` | {} | {} | {}{}{} | {} |\n", p.name, p.symbol, default_of(p), range,
-                       separator, p.unit, escaped(documentation_of(p)));
+    return fmt::format("| `{}` | {} | {} | {}{}{} | {} |\n", user_name(p.name), p.symbol,
+                       default_of(p), range, separator, p.unit, escaped(documentation_of(p)));
 }
 
 std::string table() {

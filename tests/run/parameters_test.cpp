@@ -42,7 +42,7 @@ TEST(RunParameters, SpecificFrictionOverridesMu) {
 
 TEST(RunParameters, AnUnknownNameIsRejectedWithTheNearest) {
     EXPECT_THAT(error_of({{"mu_wal", "1"}}), testing::EndsWith("did you mean 'mu_wall'?"));
-    expect_rejected({{"colour-of-the-sky", "blue"}}, "--help");
+    expect_rejected({{"colour-of-the-sky", "blue"}}, "swirl help run all");
 }
 
 TEST(RunParameters, TwoOfAmplitudePeriodAndSpeedDetermineTheThird) {

@@ -18,7 +18,7 @@
 namespace swirl {
 namespace {
 
-/// The vertices of a path as the text of --path.
+/// The vertices of a path as the text of --motion.
 std::string points_of(const ContainerPath& path) {
     std::string text = "points";
     for (const Segment& s : path.segments)

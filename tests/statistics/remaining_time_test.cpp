@@ -96,7 +96,7 @@ TEST(RemainingTime, ALongTaskKeepsFewSamplesAndStaysExact) {
 }
 
 // Recorded, as processor time on one core: `swirl track VIDEO --spin` with the video of
-// `swirl synthetic-video --max-frames 600 --scale 20`. The shares are the per cent of the bar.
+// `swirl synthetic-video --frame-count 600 --scale 20`. The shares are the per cent of the bar.
 constexpr const char *survey = "surveying the video", *discs = "finding discs",
                      *missing = "finding missing discs", *spins = "measuring spins";
 struct Report {

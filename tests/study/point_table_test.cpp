@@ -41,7 +41,7 @@ class PointTable : public testing::Test {
 
 TEST_F(PointTable, RowsArePointsWithTheirReplicas) {
     const SweepPlan made =
-        plan("# made by hand\nmu-disc, discs,seeds # two kinds\n0.5,30,2\n\n1,40,1\n",
+        plan("# made by hand\nmu-disc, discs,replicates # two kinds\n0.5,30,2\n\n1,40,1\n",
              {{"periods", "50"}});
     EXPECT_EQ(made.rows(), 2u);
     ASSERT_EQ(made.points(), 3u);
@@ -57,25 +57,26 @@ TEST_F(PointTable, RowsArePointsWithTheirReplicas) {
 // A point has the same runs in a table and in a product of lists.
 TEST_F(PointTable, SeedsAreThoseOfAProduct) {
     const SweepPlan product = make_plan({{"discs", "30,40"}, {"mu", "0.5"}}, 2),
-                    table = plan("mu,discs,seeds\n0.5,40,2\n0.5,30,1\n");
+                    table = plan("mu,discs,replicates\n0.5,40,2\n0.5,30,1\n");
     EXPECT_EQ(table.config(0).seed, product.config(2).seed);
     EXPECT_EQ(table.config(1).seed, product.config(3).seed);
     EXPECT_EQ(table.config(2).seed, product.config(0).seed);
 }
 
 TEST_F(PointTable, AGivenSeedIsThatOfTheFirstReplicate) {
-    const SweepPlan made = plan("discs,seed,seeds\n30,7,3\n30,10,1\n");
+    const SweepPlan made = plan("discs,seed,replicates\n30,7,3\n30,10,1\n");
     for (std::size_t point = 0; point < 4; ++point) EXPECT_EQ(made.config(point).seed, 7 + point);
-    EXPECT_THAT(error_of("discs,seed,seeds\n30,7,3\n30,9,1\n"),
+    EXPECT_THAT(error_of("discs,seed,replicates\n30,7,3\n30,9,1\n"),
                 HasSubstr("line 3: the run is that of '"));
-    EXPECT_THAT(error_of("discs,seed,seeds\n30,18446744073709551614,3\n"), HasSubstr("below 2^64"));
+    EXPECT_THAT(error_of("discs,seed,replicates\n30,18446744073709551614,3\n"),
+                HasSubstr("below 2^64"));
 }
 
 TEST_F(PointTable, GrowthKeepsTheNumbersOfPoints) {
-    const SweepPlan before = plan("discs,seeds\n30,1\n31,2\n");
+    const SweepPlan before = plan("discs,replicates\n30,1\n31,2\n");
     // Another spelling of a point is that point, and a new column is empty in older rows.
     const SweepPlan after =
-        grown(before, rows("discs,mu,seeds\n31.0,1,1\n32,0.5,1\n30,1,3\n"), {}, {});
+        grown(before, rows("discs,mu,replicates\n31.0,1,1\n32,0.5,1\n30,1,3\n"), {}, {});
     ASSERT_EQ(after.points(), 6u);
     for (std::size_t point = 0; point < before.points(); ++point) {
         EXPECT_EQ(after.parameters(point), before.parameters(point));
@@ -86,12 +87,12 @@ TEST_F(PointTable, GrowthKeepsTheNumbersOfPoints) {
     write_plan(scratch_.folder(), after);
     EXPECT_EQ(read_plan(scratch_.folder()), after);
     EXPECT_EQ(grown(after, {}, 2, {}).row_replicas, (std::vector<std::int64_t>{3, 2, 2}));
-    EXPECT_THAT(points_of_rows(after, rows("discs,seeds\n30,2\n31,9\n33,1\n")),
+    EXPECT_THAT(points_of_rows(after, rows("discs,replicates\n30,2\n31,9\n33,1\n")),
                 ElementsAre(ElementsAre(0, 3), ElementsAre(1, 2), ElementsAre()));
 }
 
 TEST_F(PointTable, SpreadsheetsGiveTheSamePoints) {
-    const SweepPlan expected = plan("discs,mu,path,seeds\n30,0.5,line,2\n31,1,circle,1\n");
+    const SweepPlan expected = plan("discs,mu,path,replicates\n30,0.5,line,2\n31,1,circle,1\n");
     for (const char* text : {"Discs;MU;Path;Seeds\n30;0,5;line;2\n31;1,0;circle;1\n",
                              "sep=;\r\ndiscs;mu;path;seeds\r\n30;0,5;line;2\r\n31;1;circle;1\r\n",
                              "DISCS\tMu\tpath\tseeds\n30\t0,5\tline\t2\n31\t1\tcircle\t1\n"})
@@ -103,12 +104,12 @@ TEST_F(PointTable, InvalidTablesAreRejected) {
              {"", "has no rows"},
              {"discs\n", "has no rows"},
              {"disks\n30\n", "line 1: there is no parameter 'disks'.\nhint: did you mean 'discs'?"},
-             {"replicates,discs\n2,30\n", "did you mean 'seeds'?"},
+             {"replicate,discs\n2,30\n", "did you mean 'replicates'?"},
              {"energy\n30\n", "hint: a column is a parameter"},
              {"discs,\n30,\n", "a column has no name"},
              {"discs,mu,discs\n30,1,30\n", "two columns 'discs'"},
              {"mu-disc,mu_disc\n1,1\n", "two columns 'mu_disc'"},
-             {"seeds\n3\n", "no column of a parameter"},
+             {"replicates\n3\n", "no column of a parameter"},
              {"discs,mu\n30,1\n31\n", "line 3: 1 fields, but the first line has 2"},
              {"discs,mu\n30,\n", "line 2: mu is empty"},
              {"discs,mu\n30,nan\n", "line 2: --mu is 'nan'"},
@@ -116,8 +117,8 @@ TEST_F(PointTable, InvalidTablesAreRejected) {
              {"discs\n5:48\n", "line 2: --discs is '5:48'"},
              {"discs\n30\n900\n", "line 3: 900 discs do not fit"},
              {"discs,mu\n30,1\n31,1\n30,1.0\n", "line 4: the run is that of '"},
-             {"discs,seeds\n30,0\n", "seeds is '0'"},
-             {"discs,seeds\n30,2.5\n", "seeds is '2.5'"},
+             {"discs,replicates\n30,0\n", "replicates is '0'"},
+             {"discs,replicates\n30,2.5\n", "replicates is '2.5'"},
              {"discs;mu\n30;0,5\n31;0.5\n", "line 3: column 'mu' is '0.5', but it must be written"},
              {"30,1\n31,1\n", "line 1: 2 columns without a header"},
              {"discs\n30", "no line break"}})

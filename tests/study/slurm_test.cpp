@@ -11,7 +11,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 SlurmJob job(const std::string& time = "", const std::string& partition = "") {
-    return {.nodes = 4, .cpus = 2, .time = time, .partition = partition};
+    return {.tasks = 4, .cores = 2, .time = time, .partition = partition};
 }
 
 TEST(SlurmScript, QuotesTheFolderAndDoublesItsPercentSigns) {
@@ -35,12 +35,12 @@ TEST(SlurmScript, PassesFurtherOptionsToSbatch) {
 
 // A task of one core must not keep a whole node from others, nor start a run for each of its cores.
 TEST(SlurmScript, UsesTheCoresThatSlurmGives) {
-    for (const int cpus : {0, 2}) {
+    for (const int cores : {0, 2}) {
         SlurmJob with = job();
-        with.cpus = cpus;
+        with.cores = cores;
         const std::string text = slurm_script(with, "/a");
         EXPECT_THAT(text, Not(HasSubstr("exclusive")));
-        EXPECT_EQ(text.find("#SBATCH --cpus-per-task=2\n") != text.npos, cpus == 2);
+        EXPECT_EQ(text.find("#SBATCH --cpus-per-task=2\n") != text.npos, cores == 2);
         EXPECT_THAT(text, HasSubstr(" --threads \"$SLURM_CPUS_ON_NODE\"\n"));
     }
 }

@@ -54,7 +54,7 @@ TEST(SweepPlan, EveryParameterCanBeAnAxis) {
         given[name] = another(row);
         const SweepPlan plan = make_plan(given, 1);
         ASSERT_EQ(plan.axes.size(), given.size());
-        EXPECT_NE(plan.axis(name), nullptr);
+        EXPECT_NE(plan.axis(row.name), nullptr);
     }
 }
 
@@ -70,7 +70,7 @@ TEST(SweepPlan, EqualRunsFromGivenStatesAreRejected) {
 TEST(SweepPlan, AnAxisWithoutEffectIsRejected) {
     EXPECT_THAT(error_of({{"mu", "0.1,0.5"}, {"mu_disc", "1"}, {"mu_wall", "1"}}),
                 testing::HasSubstr("--mu 0.1 and --mu 0.5 are the same run"));
-    EXPECT_THAT(error_of({{"discs", "5,6,5"}}), testing::HasSubstr("--seeds"));
+    EXPECT_THAT(error_of({{"discs", "5,6,5"}}), testing::HasSubstr("--replicates"));
     EXPECT_EQ(error_of({{"mu", "0.1,0.5"}, {"mu_disc", "1"}}), "");
     // A contact duration has no effect without dissipation and floor.
     EXPECT_THAT(error_of({{"contact_duration", "0.001,0.01"}}), testing::HasSubstr("the same run"));

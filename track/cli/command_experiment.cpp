@@ -231,7 +231,8 @@ void add_experiment_command(Subcommand& subcommand) {
     };
     subcommand.add({{"videos", &call->rough, "Videos or image sequences, or tracks (.csv, .h5)",
                      "VIDEO", required}});
-    add("--smooth", call->smooth, "VIDEO", "Videos of smoother discs (Figure 4c); repeatable");
+    add("--smooth-discs", call->smooth, "VIDEO",
+        "Videos of smoother discs (Figure 4c); repeatable");
     add("--fps", call->fps, "N", "Frames per second of all videos [from each video]");
     add("--max-frames", call->frames, "N", "Number of frames of each video [all]");
     flag("--spin", call->spin, "Measure spins from textures (Figure 4b)");
@@ -242,22 +243,22 @@ void add_experiment_command(Subcommand& subcommand) {
                                         {"period", "such that the speed is 1"},
                                         {"path", "circle"}});
     group = "Simulation";
-    add("--seeds", call->settings.seeds, "N", "Runs for each number of discs [3]");
+    add("--replicates", call->settings.seeds, "N", "Runs for each number of discs [3]");
     add("--smooth-mu", call->settings.smooth_mu, "NUMBER",
-        "Friction coefficient of the --smooth discs [0.1]");
+        "Friction coefficient of the --smooth-discs [0.1]");
     flag("--no-simulation", call->no_simulation, "Videos only, without simulations");
     group = "Output";
     add("--out", call->out, "DIR", "Folder for report and figures; valid results are reused");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
     flag("--quiet", call->quiet, "No progress line and no summary");
-    subcommand.set_main_options({"--smooth", "--fps", "--spin", "--mu", "--preset", "--events",
-                                 "--seeds", "--no-simulation", "--out", "--json"});
-    subcommand.set_examples(
-        {"swirl experiment N24.mp4 N36.mp4 N48.mp4 --mu 0.5 --out marbles",
-         "swirl experiment videos/*.mp4 --preset experiment --out marbles",
-         "swirl experiment rough36.mp4 rough48.mp4 --smooth smooth36.mp4 --smooth smooth48.mp4 "
-         "--out both",
-         "swirl experiment tracks.csv --no-simulation --out measured"});
+    subcommand.set_main_options({"--smooth-discs", "--fps", "--spin", "--mu", "--preset",
+                                 "--events", "--replicates", "--no-simulation", "--out", "--json"});
+    subcommand.set_examples({"swirl experiment N24.mp4 N36.mp4 N48.mp4 --mu 0.5 --out marbles",
+                             "swirl experiment videos/*.mp4 --preset experiment --out marbles",
+                             "swirl experiment rough36.mp4 rough48.mp4 --smooth-discs smooth36.mp4 "
+                             "--smooth-discs smooth48.mp4 "
+                             "--out both",
+                             "swirl experiment tracks.csv --no-simulation --out measured"});
     subcommand.callback([call] { make_experiment_report(*call); });
 }
 

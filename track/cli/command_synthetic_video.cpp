@@ -73,10 +73,7 @@ void set_light(const SyntheticVideoCall& call, const Apply& apply, CameraSetting
 /// Throws UsageError.
 CameraSettings camera_settings(const SyntheticVideoCall& call, const RunConfig& config) {
     const auto named = camera_preset(call.preset);
-    if (!named)
-        throw UsageError(fmt::format("--camera is '{}', but it must be one of {}.{}", call.preset,
-                                     fmt::join(camera_presets(), ", "),
-                                     nearest_value_hint(call.preset, camera_presets())));
+    if (!named) reject_choice("camera", call.preset, camera_presets());
     CameraSettings camera = *named;
     const auto apply = [](const char* name, const auto& given, auto& into, double from, double to) {
         if (!given) return;
@@ -132,7 +129,7 @@ void validate(const SyntheticVideoCall& call) {
         throw UsageError(fmt::format("--quality is {}, but it must be from 0 (lossless) to {}.",
                                      call.quality, worst_quality));
     if (!(call.periods > 0.0))
-        throw UsageError(fmt::format("--length is {}, but it must be above 0.", call.periods));
+        throw UsageError(fmt::format("--periods is {}, but it must be above 0.", call.periods));
     for (const auto& [name, value, most] :
          {std::tuple("speed-variation", call.speed_variation, 0.9),
           std::tuple("rest", call.rest, 1e6), std::tuple("pause", call.pause, 1e6)})
@@ -143,7 +140,7 @@ void validate(const SyntheticVideoCall& call) {
         throw UsageError(fmt::format("--start is {}, but it must be at least 0.", call.start));
     if (call.frames && *call.frames < 1)
         throw UsageError(
-            fmt::format("--max-frames is {}, but it must be at least 1.", *call.frames));
+            fmt::format("--frame-count is {}, but it must be at least 1.", *call.frames));
 }
 
 /// Angle of the container on its path, in degrees, counter-clockwise in the image.
@@ -250,12 +247,12 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
         call.periods * static_cast<double>(camera.frames_per_period) + 0.5));
     if (frames < 1)
         throw UsageError(
-            fmt::format("--length is {}, which is less than one frame.", call.periods));
+            fmt::format("--periods is {}, which is less than one frame.", call.periods));
     camera.frames = frames;
     if (call.hands) {
         if (!(*call.hands >= 0.0 && *call.hands <= 0.5 * call.periods))
             throw UsageError(
-                fmt::format("--hand-time is {}, but it must be from 0 to half of --length, {}.",
+                fmt::format("--hand-time is {}, but it must be from 0 to half of --periods, {}.",
                             *call.hands, 0.5 * call.periods));
         camera.hand_frames =
             static_cast<std::int64_t>(*call.hands * double(camera.frames_per_period) + 0.5);
@@ -325,23 +322,24 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
 void add_synthetic_video_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SyntheticVideoCall>();
     const char* section = "Video";
-    const auto add = [&](const char* name, auto& into, const char* type, const char* description) {
+    const auto add = [&](const char* name, auto& into, const std::string& type,
+                         const char* description) {
         subcommand.in(section).add({{name, &into, description, type}});
     };
     const auto flag = [&](const char* name, bool& into, const char* description) {
         subcommand.in(section).add({{name, &into, description}});
     };
     add("--out", call->out, "FILE.mp4", "Video; its ground truth is written next to it");
-    add("--length", call->periods, "PERIODS", "Duration, in periods [3]");
-    add("--max-frames", call->frames, "N", "Number of frames, instead of --length");
+    add("--periods", call->periods, "PERIODS", "Duration, in periods [3]");
+    add("--frame-count", call->frames, "N", "Number of frames, instead of --periods");
     add("--start", call->start, "PERIODS", "Period of the first frame [20]");
     add("--fps", call->fps, "N", "Nominal frames per second for playback [60]");
     add("--quality", call->quality, "N", "Compression: 0 lossless, 18 good, 35 poor [18]");
     flag("--overwrite", call->overwrite, "Replace an existing video");
     flag("--quiet", call->quiet, "No progress line and no summary");
     section = "Camera";
-    add("--camera", call->preset, "NAME",
-        "Preset: laboratory, phone, bad, steel, student [laboratory]");
+    add("--camera", call->preset, one_of(camera_presets()),
+        "Preset of the camera and the discs [laboratory]");
     add("--scale", call->scale, "NUMBER", "Image scale, pixels per disc radius");
     add("--frames-per-period", call->frames_per_period, "N", "Frames per period");
     add("--width", call->width, "PIXELS", "Frame width");
@@ -393,8 +391,9 @@ void add_synthetic_video_command(Subcommand& subcommand) {
     flag("--roll", call->rolls, "Draw discs as spheres that roll on the floor");
     flag("--mirrored", call->mirrored, "Mirror the image, as seen from below");
     flag("--camera-on-container", call->still, "Camera that moves with the container");
-    call->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
-    subcommand.set_main_options({"--out", "--length", "--max-frames", "--fps", "--camera",
+    call->parameters =
+        add_run_options(subcommand, {"events", "periods", "warmup", "events_per_sample", "ramp"});
+    subcommand.set_main_options({"--out", "--periods", "--frame-count", "--fps", "--camera",
                                  "--scale", "--frames-per-period", "--discs", "--mu", "--seed"});
     subcommand.set_examples({"swirl synthetic-video --discs 36 --out lab.mp4",
                              "swirl synthetic-video --camera phone --discs 48 --quality 28 --out "

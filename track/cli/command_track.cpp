@@ -71,7 +71,8 @@ std::vector<FrameRange> frame_ranges(const std::string& text) {
         const auto last = dash == part.npos ? first : read_whole_number(part.substr(dash + 1));
         if (!first || !last || *first < 0 || *last < *first)
             throw UsageError(fmt::format(
-                "--skip is '{}', but it must be numbers of frames, for example 40,60-64.", text));
+                "--ignore-frames is '{}', but it must be numbers of frames, for example 40,60-64.",
+                text));
         ranges.push_back({*first, *last});
     }
     return ranges;
@@ -80,13 +81,15 @@ std::vector<FrameRange> frame_ranges(const std::string& text) {
 /// The frames to track, and what to accept. Throws UsageError.
 void set_frames(const TrackCall& call, TrackingSettings& settings) {
     if (call.from && *call.from < 0)
-        throw UsageError(fmt::format("--from is {}, but it must be at least 0.", *call.from));
+        throw UsageError(
+            fmt::format("--first-frame is {}, but it must be at least 0.", *call.from));
     settings.first_frame = call.from.value_or(0);
     if (call.to) {
-        if (call.frames) throw UsageError("--to and --max-frames exclude each other.");
+        if (call.frames) throw UsageError("--last-frame and --max-frames exclude each other.");
         if (*call.to < settings.first_frame)
-            throw UsageError(fmt::format("--to is {}, but it must be at least {}, the first frame.",
-                                         *call.to, settings.first_frame));
+            throw UsageError(
+                fmt::format("--last-frame is {}, but it must be at least {}, the first frame.",
+                            *call.to, settings.first_frame));
         settings.max_frames = *call.to - settings.first_frame + 1;
     }
     settings.skip = frame_ranges(call.skip);
@@ -240,10 +243,11 @@ void reject_options_of_tracks(const TrackCall& call) {
 /// Throws UsageError or Failure before any work is done.
 void validate(const TrackCall& call) {
     if (call.out.empty() && call.path.empty())
-        throw UsageError("missing required option --out FILE.csv|FILE.h5, or --path-out FILE.csv.");
+        throw UsageError(
+            "missing required option --out FILE.csv|FILE.h5, or --motion-out FILE.csv.");
     if (!call.path.empty() && !call.path.ends_with(".csv"))
         throw UsageError(
-            fmt::format("--path-out is '{}', but its name must end with .csv.", call.path));
+            fmt::format("--motion-out is '{}', but its name must end with .csv.", call.path));
     if (call.out.empty()) reject_options_of_tracks(call);
     if (!call.out.empty() && !is_named_as_tracks(call.out))
         throw UsageError(
@@ -360,8 +364,7 @@ void add_track_command(Subcommand& subcommand) {
     add("video", call->source.video, "VIDEO", "Video file, or numbered images (%05d.png)");
     add("--out", call->out, "FILE.csv|FILE.h5",
         "Tracks; calibration goes next to them (.camera.json)");
-    add("--path-out", call->path, "FILE.csv",
-        "Motion of the container, as a path for swirl run --path");
+    add("--motion-out", call->path, "FILE.csv", "Motion of the container, for swirl run --motion");
     add("--fps", call->fps, "N", "Frames per second [from the video]");
     add("--container-diameter", call->source.container_diameter, "MM",
         "Inner diameter of the container");
@@ -370,11 +373,11 @@ void add_track_command(Subcommand& subcommand) {
     add("--tilt", call->tilt, "DEG,SIDE",
         "Camera tilt, and its side counter-clockwise from +x [found]");
     add("--max-frames", call->frames, "N", "Number of frames to track [all]");
-    add("--from", call->from, "K", "First frame to track, counted from 0 [0]");
-    add("--to", call->to, "K", "Last frame to track [the last one]");
-    add("--skip", call->skip, "LIST", "Frames that are not used, such as 40,60-64");
-    add("--correct-frames", call->accept, "FAULTS",
-        "Frame faults to correct: duplicates, missing or both");
+    add("--first-frame", call->from, "K", "First frame to track, counted from 0 [0]");
+    add("--last-frame", call->to, "K", "Last frame to track [the last one]");
+    add("--ignore-frames", call->skip, "LIST", "Frames that are not used, such as 40,60-64");
+    add("--correct-frames", call->accept, "duplicates|missing|duplicates,missing",
+        "Faults of frames to correct");
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
@@ -385,12 +388,12 @@ void add_track_command(Subcommand& subcommand) {
         {"--verbose", &call->verbose, "Also print the geometry of container and camera"},
         {"--quiet", &call->quiet, "No progress line and no summary"},
     });
-    subcommand.set_main_options({"--out", "--path-out", "--fps", "--container-diameter",
+    subcommand.set_main_options({"--out", "--motion-out", "--fps", "--container-diameter",
                                  "--disc-diameter", "--discs", "--tilt", "--overlay", "--report",
                                  "--json", "--spin"});
     subcommand.set_examples({"swirl track dish.mp4 --out tracks.csv",
                              "swirl track slow-motion.mp4 --fps 960 --out tracks.csv",
-                             "swirl track shaker.mp4 --path-out shaker.csv",
+                             "swirl track shaker.mp4 --motion-out shaker.csv",
                              "swirl measure tracks.csv --measure density,flow,slip",
                              "swirl movie tracks.csv --over dish.mp4 --out overlay.mp4"});
     subcommand.callback([call] { track(*call); });

@@ -75,7 +75,7 @@ std::string motion_text(const TrackedVideo& video, const RecordedMotion& motion,
     return fmt::format(
         "{}: motion of the container, mean of {:.2f} periods, {}\n  amplitude   {}, {} pixels; a "
         "coordinate varies by {:.3f} pixels between periods\n  period      {}\n  scale       disc "
-        "radius {} pixels; {}\n  next        swirl run --path {} --container-radius {}\n",
+        "radius {} pixels; {}\n  next        swirl run --motion {} --container-radius {}\n",
         file, motion.periods, harmonics_text(motion),
         in_radii(motion.amplitude(), motion.point_error, video),
         with_error(motion.amplitude(), motion.point_error), motion.scatter,

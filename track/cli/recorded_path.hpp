@@ -1,4 +1,4 @@
-// The motion of a container in a video as a file for `swirl run --path`.
+// The motion of a container in a video as a file for `swirl run --motion`.
 #pragma once
 
 #include <filesystem>

@@ -472,7 +472,8 @@ std::vector<std::string> Experiment::findings() const {
     if (std::none_of(videos_.begin(), videos_.end(),
                      [](const ContainerVideo& f) { return f.smooth; }))
         findings.push_back(
-            "All videos have discs of the same roughness, so there is no Figure 4c. --smooth takes "
+            "All videos have discs of the same roughness, so there is no Figure 4c. --smooth-discs "
+            "takes "
             "videos of smoother discs.");
     findings.push_back(
         "Quantities of single collisions (rates, impulses, sticking, energy) cannot be measured in "
@@ -511,7 +512,8 @@ const std::vector<std::string>& measurements_of_a_video() {
 
 void check(const ExperimentSettings& settings) {
     if (settings.seeds < 1)
-        throw UsageError(fmt::format("--seeds is {}, but it must be at least 1.", settings.seeds));
+        throw UsageError(
+            fmt::format("--replicates is {}, but it must be at least 1.", settings.seeds));
     resolve(settings.parameters);
     resolve({{"mu", settings.smooth_mu}});
 }

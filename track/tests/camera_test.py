@@ -179,12 +179,12 @@ class CameraTest(InFolder):
     def test_outlines_coincide_with_the_discs(self):
         for clockwise in (False, True):
             self.record(14, clockwise)
-            for frame in ("lab", "m"):
+            for frame in ("laboratory", "m"):
                 out = self.path("x.png")
                 self.assert_good(
                     self.call(
                         "image",
-                        "--frame",
+                        "--view",
                         frame,
                         "--start",
                         0.31,
@@ -226,7 +226,7 @@ class CameraTest(InFolder):
             20,
             "--trails",
             "--plot",
-            "--frame",
+            "--view",
             "both",
             "--out",
             out,

@@ -29,7 +29,7 @@ SMALL = [
 ]
 # The packing fractions equal those of 28 and 39 discs in the paper's container.
 NUMBERS = (16, 22)
-SIMULATION = ["--events", "1e4", "--seeds", 2]
+SIMULATION = ["--events", "1e4", "--replicates", 2]
 
 
 def rows(*path):
@@ -42,7 +42,7 @@ class Experiment(InFolder):
         made = []
         for n in NUMBERS:
             made.append(self.path(f"N{n}.mp4"))
-            length = ["--length", 4.2 if n == NUMBERS[0] else 1.7]
+            length = ["--periods", 4.2 if n == NUMBERS[0] else 1.7]
             done = swirl(
                 "synthetic-video", "--discs", n, *SMALL, *length, "--out", made[-1], "--quiet"
             )
@@ -108,7 +108,7 @@ class Experiment(InFolder):
             "N22",
             "No video has the spins",
             "there is no Figure 4c",
-            "--smooth",
+            "--smooth-discs",
         ):
             self.assertIn(words, page)
         # A repeated call neither tracks nor simulates again, and gives the same tables.
@@ -156,7 +156,7 @@ class Experiment(InFolder):
         done = self.experiment(
             os.path.join(out, "tracks", "N16.csv"),
             self.path("none.mp4"),
-            "--smooth",
+            "--smooth-discs",
             os.path.join(out, "tracks", "N22.csv"),
             "--no-simulation",
             "--out",
@@ -175,7 +175,7 @@ class Experiment(InFolder):
         for words, arguments in (
             ("--out", ["a.mp4"]),
             ("--fps", ["a.mp4", "--out", self.path("x"), "--fps", -1]),
-            ("--seeds", ["a.mp4", "--out", self.path("x"), "--seeds", 0]),
+            ("--replicates", ["a.mp4", "--out", self.path("x"), "--replicates", 0]),
             ("called 'a'", ["a.mp4", "b/a.mp4", "--out", self.path("x")]),
             ("--mu", ["a.mp4", "--out", self.path("x"), "--mu", "-1"]),
         ):

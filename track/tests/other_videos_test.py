@@ -131,7 +131,7 @@ class OtherVideos(InFolder):
             self.assertLess(abs(camera["path"]["omega"] / omega - 1.0), 1e-3)  # 3 % without
 
     def test_parts_of_a_video(self):
-        video, done = self.call("--from", 20, "--to", 79, "--skip", "30,40-41")
+        video, done = self.call("--first-frame", 20, "--last-frame", 79, "--ignore-frames", "30,40-41")
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("tracks.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))
@@ -141,11 +141,11 @@ class OtherVideos(InFolder):
             d = numpy.array(video.positions[int(row["frame"])]) - [float(row["x"]), float(row["y"])]
             self.assertLess(numpy.hypot(d[:, 0], d[:, 1]).min(), 2.0)  # filled in by straight lines
         for call in (
-            ("--from", -1),
-            ("--from", 9, "--to", 8),
-            ("--skip", "4-"),
+            ("--first-frame", -1),
+            ("--first-frame", 9, "--last-frame", 8),
+            ("--ignore-frames", "4-"),
             ("--correct-frames", "all"),
-            ("--to", 9, "--max-frames", 9),
+            ("--last-frame", 9, "--max-frames", 9),
         ):
             done = swirl("track", self.path("video.mp4"), "--out", self.path("no.csv"), *call)
             self.assertEqual(done.returncode, 2, done.stderr)

@@ -1,4 +1,4 @@
-"""swirl track --path-out: the motion of a container in a video, and a run on it."""
+"""swirl track --motion-out: the motion of a container in a video, and a run on it."""
 
 import csv
 import json
@@ -36,7 +36,7 @@ NUMBER = r"[\d.]+"
 
 
 class Recorded:
-    """A file of swirl track --path-out: its points, and the errors that its comments state."""
+    """A file of swirl track --motion-out: its points, and the errors that its comments state."""
 
     def __init__(self, file):
         with open(file, encoding="utf-8") as opened:
@@ -62,7 +62,7 @@ class RecordedPath(InFolder):
         done = swirl(
             "synthetic-video",
             *VIDEO,
-            "--length",
+            "--periods",
             length,
             "--out",
             self.path(name),
@@ -73,7 +73,7 @@ class RecordedPath(InFolder):
         return self.path(name)
 
     def record(self, video, *more, name="path.csv"):
-        done = swirl("track", video, "--path-out", self.path(name), *more)
+        done = swirl("track", video, "--motion-out", self.path(name), *more)
         if "no camera support" in done.stderr:
             self.skipTest("this build has no camera support")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -86,7 +86,7 @@ class RecordedPath(InFolder):
         return rate["mean"], rate["error"]
 
     def test_a_circle_has_its_radius_centre_and_period_and_gives_its_rotation(self):
-        path, done = self.record(self.video("--path", "circle"))
+        path, done = self.record(self.video("--motion", "circle"))
         self.assertEqual(len(path.points), 121)
         self.assertEqual(path.points[0][1:], path.points[-1][1:])
         point_error = path.number("standard error of a coordinate", "disc radii")
@@ -105,10 +105,12 @@ class RecordedPath(InFolder):
         # A run on it rotates as on the circle, within the errors of the two averages and that of
         # the scale. ϖ changes by less than 0.4 per unit of the amplitude here, and of the
         # container's radius.
-        self.assertIn(f"swirl run --path {self.path('path.csv')} --container-radius R", done.stdout)
-        options = "--path", self.path("path.csv"), "--container-radius", 6.5
+        self.assertIn(
+            f"swirl run --motion {self.path('path.csv')} --container-radius R", done.stdout
+        )
+        options = "--motion", self.path("path.csv"), "--container-radius", 6.5
         ours, circle = self.rotation(*options), self.rotation(
-            "--path", "circle", "--container-radius", 6.5
+            "--motion", "circle", "--container-radius", 6.5
         )
         self.assertLess(
             abs(ours[0] - circle[0]), 3 * math.hypot(ours[1], circle[1]) + 0.4 * 8.4 * radius_error
@@ -129,7 +131,7 @@ class RecordedPath(InFolder):
         for name, shape, ratio in some((("line", "line", 0.0), ("ellipse", "ellipse:0.4", 0.4)), 1):
             with self.subTest(shape):
                 path, _ = self.record(
-                    self.video("--path", shape, name=f"{name}.mp4"), name=f"{name}.csv"
+                    self.video("--motion", shape, name=f"{name}.mp4"), name=f"{name}.csv"
                 )
                 error = 3 * math.hypot(
                     path.number("standard error of a coordinate", "disc radii"),
@@ -139,7 +141,7 @@ class RecordedPath(InFolder):
                 self.assertLess(abs(path.extent(2) - ratio * 1.892), error)
                 done = swirl(
                     "run",
-                    "--path",
+                    "--motion",
                     self.path(f"{name}.csv"),
                     "--container-radius",
                     6.5,
@@ -156,18 +158,18 @@ class RecordedPath(InFolder):
             self.path("line.mp4"),
             "--out",
             self.path("t.csv"),
-            "--path-out",
+            "--motion-out",
             self.path("p.csv"),
         )
         self.assertEqual(done.returncode, 1)
         self.assertIn("does not move along a circle", done.stderr)
-        self.assertIn("--path", done.stderr)
+        self.assertIn("--motion", done.stderr)
         self.assertFalse(os.path.exists(self.path("p.csv")))
 
     def test_a_recorded_path_is_seen_from_above(self):
         # The ellipse is clockwise and begins elsewhere; y is up.
         path, _ = self.record(
-            self.video("--path", "ellipse:0.5", "--direction", "clockwise", "--path-phase", 90)
+            self.video("--motion", "ellipse:0.5", "--direction", "clockwise", "--start-angle", 90)
         )
         area = sum(a[1] * b[2] - b[1] * a[2] for a, b in zip(path.points, path.points[1:]))
         self.assertLess(area, 0.0)
@@ -183,23 +185,23 @@ class RecordedPath(InFolder):
         for video, more, says in (
             (self.video("--camera-on-container", name="still.mp4", length=1.3), (), "stands still"),
             (self.video(length=1.3, name="short.mp4"), (), "at least two"),
-            (moving, ("--skip", skipped), "gap"),
+            (moving, ("--ignore-frames", skipped), "gap"),
         ):
             self.assert_fails(
-                1, "track", video, "--path-out", self.path("p.csv"), *more, says=(says, "hint:")
+                1, "track", video, "--motion-out", self.path("p.csv"), *more, says=(says, "hint:")
             )
             self.assertFalse(os.path.exists(self.path("p.csv")))
         for more, code, says in (
-            (("--path-out", self.path("p.txt")), 2, ".csv"),
-            ((), 2, "--path-out"),
-            (("--path-out", self.path("p.csv"), "--json", "-"), 2, "--out"),
-            (("--path-out", self.path("p.csv"), "--spin"), 2, "--out"),
+            (("--motion-out", self.path("p.txt")), 2, ".csv"),
+            ((), 2, "--motion-out"),
+            (("--motion-out", self.path("p.csv"), "--json", "-"), 2, "--out"),
+            (("--motion-out", self.path("p.csv"), "--spin"), 2, "--out"),
         ):
             done = swirl("track", moving, *more)
             self.assertEqual(done.returncode, code)
             self.assertIn(says, done.stderr)
         self.assert_fails(
-            1, "track", moving, "--path-out", self.path("path.csv"), says="--overwrite"
+            1, "track", moving, "--motion-out", self.path("path.csv"), says="--overwrite"
         )
 
 

@@ -182,7 +182,7 @@ class SpinComparison:
 class TrackTest(InFolder):
     def video(self, *more, name="video.mp4", length=1.15, of=tuple(SMALL)):
         path = self.path(name)
-        done = swirl("synthetic-video", *of, "--length", length, "--out", path, "--quiet", *more)
+        done = swirl("synthetic-video", *of, "--periods", length, "--out", path, "--quiet", *more)
         self.assertEqual(done.returncode, 0, done.stderr)
         return path
 
@@ -343,7 +343,7 @@ class TrackTest(InFolder):
 
     def test_each_fault_of_a_camera_changes_the_images_and_not_the_ground_truth(self):
         def made(*more):
-            video = self.video("--max-frames", 3, "--overwrite", *more)
+            video = self.video("--frame-count", 3, "--overwrite", *more)
             with open(video, "rb") as images, open(video[:-4] + ".truth.csv", "rb") as truth:
                 return images.read(), truth.read()
 
@@ -1101,7 +1101,7 @@ exec '{shutil.which("ffmpeg")}' "$@"
             self.path("damaged.mp4"),
             "--out",
             self.path("tracks.csv"),
-            "--to",
+            "--last-frame",
             48,
             "--quiet",
         )
@@ -1158,7 +1158,7 @@ exec '{shutil.which("ffmpeg")}' "$@"
         for frame in range(48, 70):
             self.assertEqual(len(after[frame]), 20, frame)  # all discs are found again
         self.assertNotIn("leaves these frames out", said)
-        for enable, option in (("lt(n,7)", "--from 7"), ("gt(n,66)", "--to 66")):
+        for enable, option in (("lt(n,7)", "--first-frame 7"), ("gt(n,66)", "--last-frame 66")):
             _, said = changed(
                 option[2:4] + ".mp4",
                 "-vf",
@@ -1279,7 +1279,7 @@ exec '{shutil.which("ffmpeg")}' "$@"
             self.assert_rejected(2, *words, call=call)
         self.assert_rejected(
             2,
-            "one of laboratory",
+            "must be laboratory, phone",
             call=swirl("synthetic-video", "--camera", "x", "--out", self.path("x.mp4")),
         )
         self.assert_rejected(2, ".mp4", call=swirl("synthetic-video", "--out", self.path("x.avi")))

@@ -71,7 +71,8 @@ void reject_time_gaps(const TrackingSettings& settings, const RimCentres& rims,
             throw Failure(fmt::format(
                 "{:.3g} s pass between frames {} and {} of '{}', {:.3g} periods: discs cannot be "
                 "followed across half a period or more\nhint: track the part before or after it "
-                "(--to {}, --from {}), or give --fps if frames are equally spaced in time",
+                "(--last-frame {}, --first-frame {}), or give --fps if frames are equally spaced "
+                "in time",
                 step, number(k - 1), number(k), settings.video, 0.5 * step / half_period,
                 number(k - 1), number(k)));
 }
@@ -181,8 +182,9 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
             settings.first_frame + static_cast<std::int64_t>(found.longest_begin);
         throw Failure(fmt::format(
             "the container moves unevenly: {}; times and Ω would be off by up to {:.1f} %\nhint: "
-            "swirl track --correct-frames {} corrects the times and leaves duplicates out; --from "
-            "{} --to {} tracks the longest part without any; record with a constant frame rate",
+            "swirl track --correct-frames {} corrects the times and leaves duplicates out; "
+            "--first-frame {} --last-frame {} tracks the longest part without any; record with a "
+            "constant frame rate",
             what, 100.0 * share, accept, begin,
             begin + static_cast<std::int64_t>(found.longest) - 1));
     }

@@ -118,10 +118,10 @@ std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracke
     constexpr std::size_t one_in = 10;  // frames that may be left out in addition
     const std::size_t frames = tracked.seen.size();
     if (one_in * occlusion.begin < frames)
-        return fmt::format("; --from {} leaves these frames out",
+        return fmt::format("; --first-frame {} leaves these frames out",
                            number_of(tracked, occlusion.end - 1) + 1);
     if (one_in * (frames - occlusion.end) < frames)
-        return fmt::format("; --to {} leaves these frames out",
+        return fmt::format("; --last-frame {} leaves these frames out",
                            number_of(tracked, occlusion.begin) - 1);
     return "";
 }
@@ -282,8 +282,9 @@ void reject_hidden_discs(const TrackedVideo& tracked) {
     if (double(missing.size()) < most * double(tracked.seen.size()) || missing.share < all) return;
     throw UncertainDiscs(fmt::format(
         "in frames {} to {} no disc is visible: they are covered, the light changes, or they rest "
-        "for so long that they look like the floor.\nhint: --from and --to limit the video to "
-        "frames in which the container moves.",
+        "for so long that they look like the floor.\nhint: --first-frame and --last-frame limit "
+        "the "
+        "video to frames in which the container moves.",
         number_of(tracked, missing.begin), number_of(tracked, missing.end - 1)));
 }
 

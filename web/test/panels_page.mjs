@@ -178,7 +178,7 @@ await explore(
 assert.match(await text("explorer-status"), /^9 of 9 points/);
 assert.match(
     await text("explorer-command"),
-    /^\.\/swirl sweep --discs 5,8,10 --mu 0,1 --periods 40 --warmup 20 --seed 3 --seeds 4 --out study && /,
+    /^\.\/swirl sweep --discs 5,8,10 --mu 0,1 --periods 40 --warmup 20 --seed 3 --replicates 4 --out study && /,
 );
 assert.match(
     await text("explorer-command"),

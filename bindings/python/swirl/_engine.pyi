@@ -240,7 +240,7 @@ class Plan:
     def __init__(
         self,
         parameters: dict[str, Any],
-        seeds: int,
+        replicates: int,
         measured: list[str],
         frames: int,
         chain: str = "",
@@ -331,13 +331,13 @@ def checksum(text: str) -> str: ...
 def grow(
     folder: str,
     more: dict[str, Any],
-    seeds: int,
+    replicates: int,
     measured: Sequence[str],
     rows: Optional[list[dict[str, Any]]],
 ) -> None: ...
 def run_identity(parameters: dict[str, Any]) -> str: ...
 def result_files(
-    folder: str, rows: list[dict[str, Any]], seeds: int
+    folder: str, rows: list[dict[str, Any]], replicates: int
 ) -> list[list[tuple[str, str]]]: ...
 def sweep(
     folder: str,
@@ -368,7 +368,7 @@ def write_map_plan(
     change: Optional[float],
     tolerance: float,
     steps: int,
-    seeds: int,
+    replicates: int,
     min_discs: int,
     max_discs: int,
     parameters: dict[str, Any],
@@ -378,7 +378,7 @@ def grow_map(
     x: dict[str, Any],
     y: dict[str, Any],
     steps: int,
-    seeds: Optional[int],
+    replicates: Optional[int],
     min_discs: Optional[int],
     max_discs: Optional[int],
 ) -> None: ...

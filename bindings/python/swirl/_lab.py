@@ -85,11 +85,11 @@ def lab(
 def parameters_of(config: Mapping[str, Any]) -> dict[str, Value]:
     """The parameters of a run from its config, without its length and what follows from others."""
     standard = json.loads(_engine.resolve({}))
-    settable = {row[0] for row in _engine.parameters()} - {"events", "periods", "warmup", "speed"}
+    omitted = {"events", "periods", "warmup", "speed", "omega"}
     found = {
         name: value
         for name, value in config.items()
-        if name in settable and value is not None and value != standard.get(name)
+        if name not in omitted and value is not None and value != standard.get(name)
     }
     if "mixture" in found:
         mixture = found["mixture"]

@@ -102,7 +102,7 @@ def compare_points(points: Any, table: Any, *, period: Optional[float] = None) -
     """Compares measured points with the table of a sweep over the number of particles.
 
         table = swirl.sweep("mine", preset="experiment", discs=range(8, 53, 4),
-                            mu=[0.2, 0.3, 0.4], seeds=2)
+                            mu=[0.2, 0.3, 0.4], replicates=2)
         found = swirl.compare_points([(8, 4.4, 20), (36, 0.1, 20), (48, -0.7, 20)], table)
         print(found)
         found.plot()

@@ -249,7 +249,7 @@ def run(
     measure: Optional[Measure] = None,
     progress: Union[bool, ProgressCallback, None] = None,
     trajectory: Optional[PathName] = None,
-    frames: Optional[int] = None,
+    frames_per_period: Optional[int] = None,
     event_log: Optional[PathName] = None,
     checkpoint: Optional[PathName] = None,
     series: Union[bool, PathName] = False,
@@ -260,7 +260,7 @@ def run(
     names, custom = split_measure(measure)
     blocks = CustomBlocks(custom)
     table = None if isinstance(series, bool) else series
-    files = _files(trajectory, frames, event_log, checkpoint, table, resume, overwrite)
+    files = _files(trajectory, frames_per_period, event_log, checkpoint, table, resume, overwrite)
     given = {**parameters, **({"measure": ",".join(names)} if names else {}), **files}
     bar = Progress(progress, "run")
     try:
@@ -293,7 +293,7 @@ def run(
 
 def _files(
     trajectory: Optional[PathName],
-    frames: Optional[int],
+    frames_per_period: Optional[int],
     event_log: Optional[PathName],
     checkpoint: Optional[PathName],
     series: Optional[PathName],
@@ -315,15 +315,15 @@ def _files(
             f"series is '{os.fspath(series)}', but its name must end in .csv.\n"
             "hint: the table is written as CSV; series=True only returns it."
         )
-    if frames is not None:
+    if frames_per_period is not None:
         if trajectory is None:
-            raise ValueError("frames is given, but trajectory is not.")
-        if not isinstance(frames, int) or not 1 <= frames <= 1_000_000:
+            raise ValueError("frames_per_period is given, but trajectory is not.")
+        if not isinstance(frames_per_period, int) or not 1 <= frames_per_period <= 1_000_000:
             raise ValueError(
-                f"frames is {shown(frames)}, but it must be a whole number per period from "
-                "1 to 1000000."
+                f"frames_per_period is {shown(frames_per_period)}, but it must be a whole number "
+                "from 1 to 1000000."
             )
-        files["frames"] = frames
+        files["frames_per_period"] = frames_per_period
     if resume and checkpoint is None:
         raise ValueError("resume is given, but checkpoint is not.")
     if resume:
@@ -394,8 +394,7 @@ measure: names (swirl.measurements()), "all", and custom measurements: objects w
     per period with all its samples.
 progress: True for a bar (needs tqdm), or a function of (fraction, events, periods).
 series: True for the averages of every period, result.series; or also the name of a CSV file to write.
-trajectory, frames, event_log, checkpoint, resume, overwrite: files, as for `swirl run`. frames is the
-    number per period [30].
+trajectory, frames_per_period [30], event_log, checkpoint, resume, overwrite: files, as for `swirl run`.
 
 Returns a swirl.Result; its values are bitwise identical to those of the command line. Other Python
 threads run meanwhile. Ctrl-C raises swirl.Interrupted, a KeyboardInterrupt whose `result` holds the

@@ -45,8 +45,8 @@ class Simulation:
         velocity: Optional[Array] = None,
         angle: Optional[Array] = None,
         spin: Optional[Array] = None,
-        path: Union[str, Array, None] = None,
-        path_times: Optional[Array] = None,
+        motion: Union[str, Array, None] = None,
+        motion_times: Optional[Array] = None,
         **parameters: Any,
     ) -> None:
         given = {"position": position, "velocity": velocity, "angle": angle, "spin": spin}
@@ -61,26 +61,28 @@ class Simulation:
             if columns and parameters.get(name) is not None:
                 raise ValueError(f"{name} and position are both given, but both define the discs.")
         custom_path = None
-        if path is not None and not isinstance(path, str) and np.shape(path)[1:] == (3,):
-            if path_times is not None:
-                raise ValueError("path_times is given, but path has a column of times.")
-            parameters["path"] = _floats("path", path)
-        elif path is not None and not isinstance(path, str):
-            custom_path = _floats("path", path)
+        if motion is None:
+            motion = parameters.pop("path", None)  # its key in results
+        if motion is not None and not isinstance(motion, str) and np.shape(motion)[1:] == (3,):
+            if motion_times is not None:
+                raise ValueError("motion_times is given, but motion has a column of times.")
+            parameters["motion"] = _floats("motion", motion)
+        elif motion is not None and not isinstance(motion, str):
+            custom_path = _floats("motion", motion)
             for name in ("amplitude", "sides", "speed"):
                 if parameters.get(name) is not None:
                     raise ValueError(
-                        f"{name} and a custom path are both given, but both define the path."
+                        f"{name} and a custom motion are both given, but both define the path."
                     )
-        elif path is not None:
-            parameters["path"] = path
+        elif motion is not None:
+            parameters["motion"] = motion
         for name in ("events", "periods", "warmup"):
             if parameters.get(name) is not None:
                 raise TypeError(
                     f"{name} is given, but a simulation has no fixed length.\n"
                     "hint: use swirl.run(), or advance() of the simulation."
                 )
-        times = None if path_times is None else _floats("path_times", path_times)
+        times = None if motion_times is None else _floats("motion_times", motion_times)
         self._engine = _engine.Simulation(parameters, columns, custom_path, times)
 
     # --- advancing ----------------------------------------------------------------------------
@@ -324,10 +326,10 @@ position [disc, xy], velocity [disc, xy], angle [disc], spin [disc]: custom disc
     (amplitude, 0). radius, mass, inertia and cannot_spin (0 or 1) may then be arrays [disc]. Without velocities discs start
     at rest relative to the container. If radius is an array and mass is not given, all discs consist
     of one material: mass ~ radius², and a disc of radius 1 has the mass 1.
-path: a shape ("circle", "ellipse:0.5", "lissajous:2:3"), a CSV file, or an array of a closed path: with
+motion: a shape ("circle", "ellipse:0.5", "lissajous:2:3"), a CSV file, or an array of a closed path: with
     the columns t, x and y, one row per point, the last row equal to the first at the end of the
     period; or vertices [vertex, xy] of a closed polygon. Through the latter the container's centre
-    runs in one period at constant speed, or is at each vertex at its time in path_times [vertex],
+    runs in one period at constant speed, or is at each vertex at its time in motion_times [vertex],
     which begin with 0.
 sizes: a distribution ("normal:1:0.1", "file:sizes.csv") or an array, radius [disc] or the columns
     radius and mass. Masses that are not given follow from one material: mass ~ radius² for discs,

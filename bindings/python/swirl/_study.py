@@ -33,9 +33,9 @@ def sweep(
     out: Optional[PathName] = None,
     *,
     points: Any = None,
-    seeds: int = 1,
+    replicates: int = 1,
     measure: Optional[Measure] = None,
-    frames: int = 0,
+    frames_per_period: int = 0,
     threads: int = 0,
     grow: bool = False,
     progress: Union[bool, Callable[[float, float, int], object], None] = None,
@@ -46,16 +46,16 @@ def sweep(
     optional("pandas", "swirl.sweep()")
     count("threads", threads, 0)
     if out is None:
-        if grow or frames or series:
+        if grow or frames_per_period or series:
             raise ValueError(
-                f"{'grow' if grow else 'frames' if frames else 'series'} is given, but out, "
+                f"{'grow' if grow else 'frames_per_period' if frames_per_period else 'series'} is given, but out, "
                 "the folder of the sweep, is not."
             )
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as temporary:
             return sweep(
                 temporary,
                 points=points,
-                seeds=seeds,
+                replicates=replicates,
                 measure=measure,
                 threads=threads,
                 progress=progress,
@@ -70,13 +70,13 @@ def sweep(
         )
     given = any(value is not None for value in (points, *parameters.values()))
     if grow:
-        folder.grow(points=points, seeds=seeds, measure=names, **parameters)
+        folder.grow(points=points, replicates=replicates, measure=names, **parameters)
     elif given or names or chain or series:
         folder.plan(
             points=points,
-            seeds=seeds,
+            replicates=replicates,
             measure=names,
-            frames=frames,
+            frames_per_period=frames_per_period,
             chain=chain,
             series=series,
             **parameters,
@@ -193,7 +193,7 @@ class Crossing:
         return self.sentence
 
 
-_ARRAYS = ("path", "sizes", "initial")  # parameters of which an array is one value
+_ARRAYS = ("motion", "path", "sizes", "initial")  # parameters of which an array is one value
 
 
 def _lists(parameters: dict[str, Any]) -> dict[str, list[Any]]:
@@ -347,7 +347,7 @@ def parameter_map(
     steps: int = 16,
     level: float = 0.0,
     change: Optional[float] = None,
-    seeds: Optional[int] = None,
+    replicates: Optional[int] = None,
     grow: bool = False,
     tolerance: float = 0.5,
     rate: str = "mean_by_time",
@@ -370,7 +370,7 @@ def parameter_map(
                 steps=steps,
                 level=level,
                 change=change,
-                seeds=seeds,
+                replicates=replicates,
                 tolerance=tolerance,
                 rate=rate,
                 min_discs=min_discs,
@@ -395,7 +395,7 @@ def parameter_map(
             "mean_by_time",
         ):
             raise ValueError(
-                "grow adds values of x and y, seeds and numbers of discs; all else stays as it "
+                "grow adds values of x and y, replicates and numbers of discs; all else stays as it "
                 "is.\nhint: use another folder for another map."
             )
         _engine.grow_map(
@@ -403,7 +403,7 @@ def parameter_map(
             _axis("x", x),
             _axis("y", y),
             count("steps", steps, 2),
-            counted("seeds", seeds),
+            counted("replicates", replicates),
             counted("min_discs", min_discs),
             counted("max_discs", max_discs),
         )
@@ -418,12 +418,12 @@ def parameter_map(
             change,
             float(tolerance),
             count("steps", steps, 2),
-            counted("seeds", seeds) or 16,
+            counted("replicates", replicates) or 16,
             counted("min_discs", min_discs) or 5,
             counted("max_discs", max_discs) or 48,
             given,
         )
-    elif (quantity, steps, level, change, seeds, tolerance, rate, min_discs, max_discs) != (
+    elif (quantity, steps, level, change, replicates, tolerance, rate, min_discs, max_discs) != (
         "mean_by_time",
         16,
         0.0,
@@ -452,13 +452,13 @@ def parameter_map(
 
 def map_runs(
     *,
-    seeds: int = 1,
+    replicates: int = 1,
     measure: Optional[Measure] = None,
     threads: int = 0,
     progress: Union[bool, Callable[[int, int], object], None] = None,
     **parameters: Values,
 ) -> list[Result]:
-    plan = _engine.Plan(given_values(parameters), count("seeds", seeds, 1), [], 0)
+    plan = _engine.Plan(given_values(parameters), count("replicates", replicates, 1), [], 0)
     count("threads", threads, 0)
     split_measure(measure)  # raises errors before the first run
     points = plan.points()
@@ -497,8 +497,8 @@ with_parameters(
     sweep,
     f"""Runs all combinations of parameter lists, or a table of points: `swirl sweep` and `swirl collect`.
 
-    table = swirl.sweep("study", discs=range(5, 49), mu=[0.1, 0.5, 1], seeds=8)
-    table = swirl.sweep("pairs", points=[{{"discs": 30, "mu": 0.1}}, {{"discs": 40, "mu": 1, "seeds": 16}}], seeds=8)
+    table = swirl.sweep("study", discs=range(5, 49), mu=[0.1, 0.5, 1], replicates=8)
+    table = swirl.sweep("pairs", points=[{{"discs": 30, "mu": 0.1}}, {{"discs": 40, "mu": 1, "replicates": 16}}], replicates=8)
 
 Returns a pandas DataFrame (swirl.collect()).
 
@@ -506,10 +506,10 @@ out: folder of the sweep, in the format of the command line. Another call with t
     the missing runs; Python and the command line can continue each other's sweeps. Without `out` only
     the table is returned.
 points: a table instead of lists: a DataFrame, a list of dictionaries or a dictionary of columns. A column is a
-    parameter, or `seeds`, the replicates of each row. A row with the parameter `seed` has that seed and the next
+    parameter, or `replicates`, their number in each row. A row with the parameter `seed` has that seed and the next
     ones. Other parameters then have one value for all rows. With grow, rows and replicates are added.
-seeds: replicates of each point. measure: names of measurements. frames: record every run with this
-    number of frames per period. threads: simultaneous runs [one per core]. grow: add these values, replicates
+replicates: number of runs of each point. measure: names of measurements. frames_per_period: record every
+    run with so many frames. threads: simultaneous runs [one per core]. grow: add these values, replicates
     and measurements to an existing sweep. progress: True for a bar (needs tqdm), or a function of
     (finished runs, all runs, events). chain: a parameter with several values; each run starts from the
     final state of its neighbour, with rising and then with falling values, so that hysteresis shows.
@@ -553,8 +553,8 @@ the verdict, the periods and the numbers of runs. `table.attrs["summary"]` is th
 out: folder of the map, in the format of the command line. A repeated call completes it, and without
     further arguments continues it. x, y: axes; a range "0:1" has `steps` values. quantity: N_c, a rotation rate,
     or a number of a measurement, such as "slip.cluster". level: the map is fine where the quantity crosses
-    it. change: and where neighbours differ by more [never; N_c 2]. seeds: maximum number of runs at a point [16].
-grow: add the values of x and y to an existing map, raise the maximum of runs to seeds, and enlarge the range
+    it. change: and where neighbours differ by more [never; N_c 2]. replicates: maximum number of runs at a point [16].
+grow: add the values of x and y to an existing map, raise the maximum of runs to replicates, and enlarge the range
     of numbers of discs to min_discs and max_discs.
 tolerance, rate, min_discs, max_discs: for N_c, as in swirl.crossing(). threads: simultaneous runs [one per
     core]. progress: a function of (decided points, known points, events). periods [120]: length of each run.

@@ -39,7 +39,7 @@ class SweepFolder:
     """The folder of a sweep, in the format of the command line: swirl.sweep() in steps.
 
         folder = swirl.SweepFolder("study")
-        folder.plan(points=[{"discs": 28}, {"discs": 30, "mu": 0.5, "seeds": 8}], measure="slip")
+        folder.plan(points=[{"discs": 28}, {"discs": 30, "mu": 0.5, "replicates": 8}], measure="slip")
         folder.run(threads=2)
         table = swirl.collect("study")
 
@@ -69,9 +69,9 @@ class SweepFolder:
         self,
         *,
         points: Any = None,
-        seeds: int = 1,
+        replicates: int = 1,
         measure: Optional[Measure] = None,
-        frames: int = 0,
+        frames_per_period: int = 0,
         chain: Optional[str] = None,
         series: bool = False,
         **parameters: Values,
@@ -83,9 +83,9 @@ class SweepFolder:
         given = given_values(parameters)
         _engine.Plan(
             given,
-            count("seeds", seeds, 1),
+            count("replicates", replicates, 1),
             names,
-            count("frames", frames, 0),
+            count("frames_per_period", frames_per_period, 0),
             chain or "",
             bool(series),
             rows,
@@ -95,17 +95,17 @@ class SweepFolder:
         self,
         *,
         points: Any = None,
-        seeds: int = 1,
+        replicates: int = 1,
         measure: Optional[Measure] = None,
         **parameters: Values,
     ) -> None:
         """Adds points, values, replicates or measurements to the plan; finished runs are kept.
 
-        `seeds` is the new number of replicates of all points, or of the new `points`."""
+        `replicates` is their new number for all points, or for the new `points`."""
         rows, names = rows_of(points), names_of(measure, "A sweep")
         given = given_values(parameters)
-        replicates = 0 if seeds == 1 else count("seeds", seeds, 1)
-        _engine.grow(self._path, given, replicates, names, rows)
+        total = 0 if replicates == 1 else count("replicates", replicates, 1)
+        _engine.grow(self._path, given, total, names, rows)
 
     def run(
         self,
@@ -122,8 +122,8 @@ class SweepFolder:
         rows = rows_of(points)
         return SweepCounts(*_engine.sweep(self._path, count("threads", threads, 0), progress, rows))
 
-    def files(self, points: Any, *, seeds: int = 1) -> list[list[RunFiles]]:
+    def files(self, points: Any, *, replicates: int = 1) -> list[list[RunFiles]]:
         """The files of the runs of each point, one for each seed; none if the plan lacks them."""
         rows = rows_of(points) or []
-        found = _engine.result_files(self._path, rows, count("seeds", seeds, 1))
+        found = _engine.result_files(self._path, rows, count("replicates", replicates, 1))
         return [[RunFiles(*files) for files in runs] for runs in found]

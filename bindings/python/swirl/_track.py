@@ -69,7 +69,7 @@ def track(
     discs: Optional[int] = None,
     fps: Optional[float] = None,
     spin: bool = False,
-    frames: Optional[int] = None,
+    max_frames: Optional[int] = None,
 ) -> VideoTracks:
     """Tracks the discs in a video of a swirled container, like `swirl track`.
 
@@ -78,7 +78,7 @@ def track(
         swirl.analyse(tracks).rotation.mean_by_time
 
     discs: their number, if it is known. fps: frames per second, if the file is wrong. spin: also
-    measures the spins of discs with a texture. frames: the first ones only.
+    measures the spins of discs with a texture. max_frames: only so many frames.
 
     Needs ffmpeg, pandas, and a program that was built with OpenCV; wheels have none. Raises
     ValueError for a wrong argument, and swirl.Failure with the likely cause if the discs cannot be
@@ -94,7 +94,7 @@ def track(
     with tempfile.TemporaryDirectory(prefix="swirl-track-") as folder:
         out = pathlib.Path(folder) / "tracks.csv"
         call = [path, "track", file_name("video", video), "--out", str(out), "--quiet"]
-        for name, value in (("--discs", discs), ("--fps", fps), ("--max-frames", frames)):
+        for name, value in (("--discs", discs), ("--fps", fps), ("--max-frames", max_frames)):
             if value is not None:
                 call += [name, str(value)]
         done = subprocess.run(

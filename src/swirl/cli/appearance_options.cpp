@@ -3,22 +3,53 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "swirl/render/movie.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 
 namespace swirl {
+namespace {
+
+constexpr std::int64_t min_side = 16, max_side = 8192;  // side of an image, pixels
+constexpr double longest_trail = 100.0;                 // periods
+
+const std::pair<std::string_view, std::vector<Frame>> views[] = {
+    {"laboratory", {Frame::lab}}, {"m", {Frame::m}}, {"both", {Frame::lab, Frame::m}}};
+
+template <typename Value, std::size_t n>
+using NamedValues = std::pair<std::string_view, Value>[n];
+
+template <typename Value, std::size_t n>
+std::vector<std::string> names_of(const NamedValues<Value, n>& values) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : values) names.emplace_back(name);
+    return names;
+}
+
+/// Throws UsageError.
+template <typename Value, std::size_t n>
+const Value& value_named(const std::string& text, const char* option,
+                         const NamedValues<Value, n>& values) {
+    for (const auto& [name, value] : values)
+        if (name == text) return value;
+    reject_choice(option, text, names_of(values));
+}
+
+}  // namespace
 
 std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) {
     auto texts = std::make_shared<AppearanceTexts>();
-    texts->frame = "lab";
+    texts->view = "laboratory";
     subcommand.in("Appearance")
         .add({
-            {"--frame", &texts->frame, "Frame of reference: lab, co-rotating (M), or both [lab]",
-             "lab|m|both"},
-            {"--color", &texts->color, "Colour by sector, pinned, spin, speed, slip, id or none",
-             "NAME"},
+            {"--view", &texts->view, "Frame of reference; m rotates with the swirl [laboratory]",
+             one_of(names_of(views))},
+            {"--color", &texts->color, "What the colours of the discs show [sector]",
+             one_of(names_of(colorings))},
             {"--trails", &texts->trails, "Draw the recent path of each disc"},
             {"--trail-length", &texts->trail_length, "Draw trails of this length [0.3]", "PERIODS"},
             {"--forces", &texts->forces, "Centrifugal and Coriolis force on each disc (M-frame)"},
@@ -26,7 +57,7 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
              "Arc for the turned angle (lab) [with --color sector]"},
             {"--angles", &texts->angles, "Scale of the angle θ along the wall (M-frame)"},
             {"--plot", &texts->plot, "Plot of the cluster's rotation against time"},
-            {"--theme", &texts->theme, "Colour theme: light or dark [light]", "NAME"},
+            {"--theme", &texts->theme, "Colour theme [light]", one_of(names_of(themes))},
             {"--title", &texts->title, "Title above the image", "TEXT"},
             {"--no-annotations", &texts->bare, "Container and discs only, no text or markers"},
             {"--size", &texts->size, "Image size in pixels [1920x1080]", "WxH"},
@@ -35,17 +66,6 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
 }
 
 namespace {
-
-constexpr std::int64_t min_side = 16, max_side = 8192;  // side of an image, pixels
-constexpr double longest_trail = 100.0;                 // periods
-
-std::vector<Frame> parse_frames(const std::string& name) {
-    if (name == "lab") return {Frame::lab};
-    if (name == "m") return {Frame::m};
-    if (name == "both") return {Frame::lab, Frame::m};
-    throw UsageError(fmt::format("--frame is '{}', but it must be lab, m or both.{}", name,
-                                 nearest_value_hint(name, {"lab", "both"})));
-}
 
 Size parse_size(const std::string& text) {
     const auto separator = std::min(text.find('x'), text.size());
@@ -64,21 +84,9 @@ Size parse_size(const std::string& text) {
 
 Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     Appearance result;
-    result.frames = parse_frames(texts.frame);
-    const auto coloring = coloring_named(texts.color);
-    if (!coloring)
-        throw UsageError(fmt::format(
-            "--color is '{}', but it must be sector, pinned, spin, speed, slip, none or id.{}",
-            texts.color,
-            nearest_value_hint(texts.color,
-                               {"sector", "pinned", "spin", "speed", "slip", "none"})));
-    result.coloring = *coloring;
-    const auto theme = theme_named(texts.theme);
-    if (!theme)
-        throw UsageError(fmt::format("--theme is '{}', but it must be dark or light.{}",
-                                     texts.theme,
-                                     nearest_value_hint(texts.theme, {"dark", "light"})));
-    result.theme = *theme;
+    result.frames = value_named(texts.view, "view", views);
+    result.coloring = value_named(texts.color, "color", colorings);
+    result.theme = value_named(texts.theme, "theme", themes)();
     result.size = texts.size.empty() ? otherwise : parse_size(texts.size);
     if (texts.trail_length) {
         if (!(*texts.trail_length > 0.0) || *texts.trail_length > longest_trail)
@@ -91,7 +99,7 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     result.forces = texts.forces;
     result.plot = texts.plot;
     const bool shows_rotation =
-        result.coloring == Coloring::sector && texts.frame != "m" && !texts.bare;
+        result.coloring == Coloring::sector && texts.view != "m" && !texts.bare;
     result.turned = texts.turned || shows_rotation;
     result.swirl = !texts.bare;
     result.angles = texts.angles;
@@ -99,15 +107,16 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     result.texts = !texts.bare;
     result.points = !texts.bare && (texts.forces || texts.angles);  // they refer to S and M
     result.path = !texts.bare;
-    if (texts.turned && texts.frame == "m")
+    if (texts.turned && texts.view == "m")
         throw UsageError(
-            "--turned-angle shows the rotation in the lab frame.\nhint: use --frame lab or --frame "
+            "--turned-angle shows the rotation in the lab frame.\nhint: use --view laboratory or "
+            "--view "
             "both.");
-    if (result.angles && texts.frame == "lab")
-        throw UsageError("--angles shows θ in the M-frame.\nhint: use --frame m or --frame both.");
-    if (result.forces && texts.frame == "lab")
+    if (result.angles && texts.view == "laboratory")
+        throw UsageError("--angles shows θ in the M-frame.\nhint: use --view m or --view both.");
+    if (result.forces && texts.view == "laboratory")
         throw UsageError(
-            "--forces shows forces in the M-frame.\nhint: use --frame m or --frame both.");
+            "--forces shows forces in the M-frame.\nhint: use --view m or --view both.");
     return result;
 }
 

@@ -14,7 +14,7 @@ struct Size;
 
 /// Options as given; appearance() parses them.
 struct AppearanceTexts {
-    std::string frame, color = "sector", theme = "light", title, size;
+    std::string view, color = "sector", theme = "light", title, size;
     std::optional<double> trail_length;
     bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
 };

@@ -329,7 +329,8 @@ void add_crossing_command(Subcommand& subcommand) {
         {"--to", &call->settings.to, "Largest number of discs [48, at most what fits]", "N"},
         {"--step", &call->settings.step, "Step of the coarse scan in discs [about eight numbers]",
          "N"},
-        {"--rate", &call->rate, "Rotation rate that controls the search [mean_by_time]", "NAME"},
+        {"--rate", &call->rate, "Rotation rate that controls the search [mean_by_time]",
+         one_of(rate_names())},
         {"--out", &call->out, "Folder for the runs; a repeated call continues", "DIR"},
         threads_option(call->sharing),
     });
@@ -352,9 +353,8 @@ void add_crossing_command(Subcommand& subcommand) {
         "errors, "
         "there are more runs instead of longer ones. Rates count in the direction of the swirl. "
         "A search that was stopped prints its points, and continues with --out DIR, the folder of "
-        "a sweep. Rotation rates (--rate): mean_by_event, mean_by_time, "
-        "rigid_by_event and rigid_by_time; --verbose, JSON and CSV have N_c for all four. Use a "
-        "small --step if the direction of rotation may change several times.\n");
+        "a sweep. --verbose, JSON and CSV have N_c for all four rotation rates. Use a small --step "
+        "if the direction of rotation may change several times.\n");
     subcommand.set_main_options({"--mu", "--events", "--seed", "--tolerance", "--from", "--to",
                                  "--step", "--threads", "--json", "--csv"});
     subcommand.set_examples(

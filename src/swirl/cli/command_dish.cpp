@@ -35,7 +35,7 @@ struct DishCall {
     std::string rpm, json, my_points, out;
     std::optional<std::int64_t> from, to;
     double tolerance = search_tolerance;
-    std::int64_t seeds = 2;
+    std::int64_t replicates = 2;
     ShareOptions sharing;
     bool no_search = false, quiet = false;
 };
@@ -196,7 +196,7 @@ SweepPlan plan_beside_points(const DishCall& call, const RunConfig& config,
         for (const std::int64_t discs : numbers) {
             ParameterTexts cells{{"discs", std::to_string(discs)}, {"mu", coefficient}};
             if (floor_follows) cells["floor_friction"] = coefficient;
-            rows.push_back(point_row(fmt::format("{} particles", discs), cells, call.seeds));
+            rows.push_back(point_row(fmt::format("{} particles", discs), cells, call.replicates));
         }
     return make_plan(rows, common);
 }
@@ -215,7 +215,7 @@ SweepOutcome run_with_progress(const DishCall& call, const SweepPlan& plan) {
 void compare_with_points(const DishCall& call, ParameterTexts given) {
     if (call.out.empty())
         throw UsageError("--my-points is given, but --out, the folder for the runs, is not.");
-    validate_whole_number("--seeds", call.seeds, 1, max_replicas);
+    validate_whole_number("--replicates", call.replicates, 1, max_replicas);
     if (const auto mu = given.find("mu"); mu != given.end()) {
         mu->second = list_of_values("mu", mu->second).front();
         if (!call.parameters->contains("floor_friction")) given.erase("floor_friction");
@@ -286,7 +286,7 @@ void add_dish_command(Subcommand& subcommand) {
             {"--my-points", &call->my_points, "Your table of N, turns, circles, to compare with",
              "FILE.csv"},
             {"--out", &call->out, "Folder for the runs; a repeated call completes it", "DIR"},
-            {"--seeds", &call->seeds, "Number of runs of each point [2]", "N"},
+            {"--replicates", &call->replicates, "Number of runs of each point [2]", "N"},
         });
     subcommand.in("Output").add({
         {"--json", &call->json, "File for all numbers, or - for stdout", "FILE|-"},

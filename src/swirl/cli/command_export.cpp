@@ -23,6 +23,12 @@ struct ExportCall {
     bool container = false, quiet = false;
 };
 
+std::vector<std::string> format_names() {
+    std::vector<std::string> names;
+    for (const ExportFormat& format : export_formats()) names.emplace_back(format.name);
+    return names;
+}
+
 /// "lammps (text dump, …), xyz (…)", from the list of formats.
 std::string formats_text() {
     std::string text;
@@ -93,10 +99,9 @@ std::string report(const TrajectoryReader& reader, const ExportFormat& format,
 void export_file(const ExportCall& call) {
     const ExportFormat* const format = export_format(call.format);
     if (!format) {
-        std::vector<std::string> names;
-        for (const ExportFormat& known : export_formats()) names.emplace_back(known.name);
         throw UsageError(fmt::format("--format is '{}', but it must be one of {}.{}", call.format,
-                                     formats_text(), nearest_value_hint(call.format, names)));
+                                     formats_text(),
+                                     nearest_value_hint(call.format, format_names())));
     }
     ExportOptions options = options_of(call);
     try_reading(call.file);
@@ -133,7 +138,7 @@ void add_export_command(Subcommand& subcommand) {
     const auto call = std::make_shared<ExportCall>();
     subcommand.add({
         {"file", &call->file, "Trajectory to convert", "FILE.h5", required},
-        {"--format", &call->format, "Output format, see below", "FORMAT", required},
+        {"--format", &call->format, "Output format, see below", one_of(format_names()), required},
         {"--out", &call->out, "Output file [FILE with the ending of the format]", "FILE"},
         {"--scale", &call->scale, "Pixels per unit of length in csv [20]", "NUMBER"},
         {"--range", &call->range, "Range of frames, counted from 0, both ends included [all]",

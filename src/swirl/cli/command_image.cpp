@@ -57,11 +57,11 @@ void add_image_command(Subcommand& subcommand) {
     call->appearance = add_appearance_options(subcommand);
     call->source = add_source_options(subcommand);
     subcommand.explain(source_explanation);
-    subcommand.set_main_options({"--out", "--start", "--frame", "--color", "--trails", "--size",
+    subcommand.set_main_options({"--out", "--start", "--view", "--color", "--trails", "--size",
                                  "--discs", "--mu", "--compare", "--over"});
     subcommand.set_examples(
-        {"swirl image --discs 48 --frame m --color pinned --out 48.pdf",
-         "swirl image --discs 28 --strobe 6 --every 0.05 --frame m --out strobe.png",
+        {"swirl image --discs 48 --view m --color pinned --out 48.pdf",
+         "swirl image --discs 28 --strobe 6 --every 0.05 --view m --out strobe.png",
          "swirl image run.h5 --start 12.5 --trails --out instant.svg"});
     subcommand.callback([call, &subcommand] {
         take_video_config(subcommand, *call->source, "image");

@@ -24,8 +24,8 @@ bool& omits_paths() {
     return omits;
 }
 
-/// --path=/home/ada/a.csv → --path=a.csv, file:../a.csv → file:a.csv. A fraction such as 30000/1001
-/// stays.
+/// --motion=/home/ada/a.csv → --motion=a.csv, file:../a.csv → file:a.csv. A fraction such as
+/// 30000/1001 stays.
 std::string without_folders(std::string_view word) {
     std::string text;
     while (!word.empty()) {
@@ -65,7 +65,7 @@ void reject_invalid_utf8(int argc, char** argv) {
 }
 
 Option omit_paths_option() {
-    return {"--omit-paths", &omits_paths(), "Store file names without folders, no config text"};
+    return {"--portable", &omits_paths(), "Store file names without folders, no config text"};
 }
 
 std::string command_line() {

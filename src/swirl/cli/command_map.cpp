@@ -19,6 +19,7 @@
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
+#include "swirl/study/crossing.hpp"
 #include "swirl/study/map.hpp"
 #include "swirl/study/map_plan.hpp"
 #include "swirl/study/sweep_folder.hpp"
@@ -34,7 +35,7 @@ struct MapCall {
     std::shared_ptr<ParameterTexts> parameters;
     MapSettings settings;
     std::string config_file, x, y, out, table;
-    std::optional<std::int64_t> seeds, from, to;
+    std::optional<std::int64_t> replicates, from, to;
     ShareOptions sharing;
     bool grow = false;
     bool status = false, dry_run = false, no_figure = false, quiet = false;
@@ -82,17 +83,17 @@ void reject_options_of_other_maps(const Subcommand& subcommand, const MapCall& c
         if (!name.empty())
             throw UsageError(
                 fmt::format("{} is given, but --grow keeps it as it is.\nhint: give --x, --y, "
-                            "--steps, --seeds, --from and --to, or use another folder.",
+                            "--steps, --replicates, --from and --to, or use another folder.",
                             name));
-        if (!has_axes && !call.seeds && !call.from && !call.to)
-            throw UsageError("--grow is given, but no --x, --y, --seeds, --from or --to.");
+        if (!has_axes && !call.replicates && !call.from && !call.to)
+            throw UsageError("--grow is given, but no --x, --y, --replicates, --from or --to.");
         if (!has_axes && !first_given(subcommand, {"--steps"}).empty())
             throw UsageError("--steps is given, but no axis.\nhint: give --x, --y or both.");
         return;
     }
     if (has_axes) return;
     const std::string name =
-        first_given(subcommand, {"--quantity", "--steps", "--level", "--change", "--seeds",
+        first_given(subcommand, {"--quantity", "--steps", "--level", "--change", "--replicates",
                                  "--from", "--to", "--rate", "--tolerance"});
     if (!name.empty())
         throw UsageError(
@@ -110,8 +111,10 @@ struct MapPlanOfCall {
 MapPlanOfCall map_plan_of(MapCall& call) {
     if (call.grow) {
         SweepPlan before = read_plan(call.out);
-        MapGrowth growth{
-            .steps = call.settings.steps, .max_runs = call.seeds, .from = call.from, .to = call.to};
+        MapGrowth growth{.steps = call.settings.steps,
+                         .max_runs = call.replicates,
+                         .from = call.from,
+                         .to = call.to};
         if (!call.x.empty()) growth.axes.push_back(read_map_axis("--x", call.x));
         if (!call.y.empty()) growth.axes.push_back(read_map_axis("--y", call.y));
         SweepPlan larger = grown_map(before, growth);
@@ -122,7 +125,7 @@ MapPlanOfCall map_plan_of(MapCall& call) {
     MapSettings& settings = call.settings;
     if (!call.x.empty()) settings.x = read_map_axis("--x", call.x);
     if (!call.y.empty()) settings.y = read_map_axis("--y", call.y);
-    settings.max_runs = call.seeds.value_or(settings.max_runs);
+    settings.max_runs = call.replicates.value_or(settings.max_runs);
     settings.from = call.from.value_or(settings.from);
     settings.to = call.to.value_or(settings.to);
     settings.parameters = *call.parameters;
@@ -187,7 +190,7 @@ void warn_about(const MapCall& call, const SweepPlan& plan, const MapState& stat
     if (unclear > 0)
         print_warning(fmt::format(
             "the sign of {} of {} points is undetermined even with all allowed runs.\nhint: use a "
-            "larger --seeds or longer runs in another folder.",
+            "larger --replicates or longer runs in another folder.",
             unclear, state.sites.size()));
     if (failed > 0)
         print_warning(
@@ -271,7 +274,7 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
         {"--steps", &s.steps, "Number of values of a range FROM:TO [16]", "N"},
         {"--level", &s.level, "Refine where the quantity crosses this [0]", "NUMBER"},
         {"--change", &s.change, "Refine where neighbours differ by more [never; N_c 2]", "NUMBER"},
-        {"--seeds", &call.seeds, "Maximum number of runs at a point [16]", "N"},
+        {"--replicates", &call.replicates, "Maximum number of runs at a point [16]", "N"},
         threads_option(call.sharing),
         {"--csv", &call.table, "File for the table, or - for stdout [DIR/map.csv]", "FILE|-"},
         {"--grow", &call.grow, "Extend an existing map; finished runs are kept"},
@@ -283,7 +286,8 @@ void add_map_options(Subcommand& subcommand, MapCall& call) {
     subcommand.in(crossing).add({
         {"--from", &call.from, "Smallest number of discs [5]", "N"},
         {"--to", &call.to, "Largest number of discs [48]", "N"},
-        {"--rate", &s.rate, "Rotation rate that changes its sign at N_c [mean_by_time]", "NAME"},
+        {"--rate", &s.rate, "Rotation rate that changes its sign at N_c [mean_by_time]",
+         one_of(rate_names())},
         {"--tolerance", &s.tolerance, "Target standard error of N_c [0.5]", "NUMBER"},
     });
     add_cluster_options(subcommand, call.sharing, false);
@@ -301,13 +305,15 @@ void add_map_command(Subcommand& subcommand) {
         "undetermined. A point gets two runs, and more near the level: their number doubles "
         "until its sign is certain. The figure shows the level with its 95 % band. With --quantity "
         "N_c, each point is a search for the number of discs at which the rotation changes its "
-        "sign. With --grow, the values of --x and --y are added to the map in DIR, --seeds is its "
+        "sign. With --grow, the values of --x and --y are added to the map in DIR, --replicates is "
+        "its "
         "new maximum, and --from and --to enlarge the range of numbers of discs.\n");
     subcommand.set_main_options({"--discs", "--mu", "--periods", "--x", "--y", "--quantity",
-                                 "--out", "--steps", "--seeds", "--threads", "--grow", "--status"});
+                                 "--out", "--steps", "--replicates", "--threads", "--grow",
+                                 "--status"});
     subcommand.set_examples(
         {"swirl map --x mu=0:1 --y amplitude=0.5:4 --out map",
-         "swirl map --out map --grow --x mu=0:2 --steps 31 --seeds 32",
+         "swirl map --out map --grow --x mu=0:2 --steps 31 --replicates 32",
          "swirl map --x mu=0:1 --y discs=20:48 --quantity rigid_by_time --out map",
          "swirl map --x mu=0.1:1 --quantity N_c --out N_c",
          "swirl map --x mu=0.1:1 --y amplitude=1:3 --quantity N_c --out N_c_map",

@@ -12,6 +12,7 @@
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
+#include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
 #include "swirl/cli/track_options.hpp"
 #include "swirl/cli/tracks_input.hpp"
@@ -181,7 +182,7 @@ void add_measure_command(Subcommand& subcommand) {
     const char *const output = "Output", *const camera = "Tracks of other programs";
     subcommand.add({{"file", &call->file, "Trajectory, tracks (CSV) or LAMMPS text dump", "FILE"}});
     subcommand.in(output).add({
-        {"--measure", &call->list, "Measurements, separated by commas, or all (or help)", "LIST"},
+        measure_option(call->list, "Measurements, separated by commas, or all (or help)"),
         {"--tables", &call->tables, "Folder for the measurements as CSV tables", "DIR"},
         {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
         {"--warmup", &call->warmup, "Periods at the start to exclude [0]", "PERIODS"},

@@ -118,11 +118,11 @@ void add_movie_command(Subcommand& subcommand) {
     subcommand.explain(std::string(source_explanation) +
                        "With --over, the default --pace shows each camera image once. The pace of "
                        "the paper's experiment was 1.88.\n");
-    subcommand.set_main_options({"--out", "--frame-files", "--seconds", "--frame", "--color",
+    subcommand.set_main_options({"--out", "--frame-files", "--seconds", "--view", "--color",
                                  "--trails", "--size", "--discs", "--mu", "--over"});
     subcommand.set_examples(
-        {"swirl movie --discs 48 --frame both --plot --out counterrotation.mp4",
-         "swirl movie --discs 28 --frame m --color pinned --trails --out rotation.webm",
+        {"swirl movie --discs 48 --view both --plot --out counterrotation.mp4",
+         "swirl movie --discs 28 --view m --color pinned --trails --out rotation.webm",
          "swirl movie --discs 48 --compare 20 --out reversal.gif",
          "swirl movie run.h5 --color id --out run.mp4",
          "swirl movie tracks.csv --camera-fps 960 --scale 24 --omega 11.81 --centre "

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 struct PaperCall {
     std::string config_file, out = "out", events, seed;
-    std::optional<int> seeds;
+    std::optional<int> replicates;
     std::vector<std::string> figures;
     ShareOptions share;
     bool quick = false, quiet = false, movies = false;
@@ -47,7 +47,7 @@ nlohmann::ordered_json json_of(const PaperCall& call) {
                                 {"build", build_description()},
                                 {"defaults", config_json(config)},
                                 {"program", main_program().string()}};
-    if (call.seeds) json["first_seeds"] = *call.seeds;
+    if (call.replicates) json["first_seeds"] = *call.replicates;
     if (!call.share.part.empty()) json["part"] = {share.part, share.parts};
     // The module is next to the program (build tree), in the same prefix, or where Python looks.
     for (const char* const where : {"python", "../lib/python3/dist-packages"})
@@ -67,8 +67,8 @@ void add_paper_command(Subcommand& subcommand) {
         {"--movies", &call->movies, "Movies of the paper, and movies.html that plays them"},
         {"--events", &call->events, "Events per run; scales lengths in periods [1e6]", "NUMBER"},
         {"--seed", &call->seed, "Random seed of the first run of each point [1]", "NUMBER"},
-        {"--seeds", &call->seeds, "Runs per point; undecided claims get more [8, quick 3]",
-         "NUMBER"},
+        {"--replicates", &call->replicates,
+         "Runs per point; undecided claims get more [8, quick 3]", "NUMBER"},
         {"--out", &call->out, "Output folder [out]", "DIR"},
         {"--part", &call->share.part, "Part of the runs to make, such as 2/10", "K/M"},
         threads_option(call->share),

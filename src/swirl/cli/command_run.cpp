@@ -82,12 +82,13 @@ void apply_call_in_checkpoint(RunCall& call) {
         !gives_only_the_length(*call.parameters))
         return;
     const OptionTexts outputs = call.output_options();
+    const std::vector<std::string> recording = recording_option_names();
     const CheckpointedCall stored = call_in_checkpoint(checkpoint->second);
     *call.parameters = overridden(parameters_in(stored.configuration), *call.parameters);
     for (const auto& [name, text] : stored.options) {
         const auto output = outputs.find(name);
         if (output == outputs.end())
-            call.recording->texts.try_emplace(plain_name(name), text);
+            call.recording->texts.try_emplace(present_name(name, recording).value_or(name), text);
         else if (output->second->empty())
             *output->second = text;
     }
@@ -244,8 +245,7 @@ void add_run_command(Subcommand& subcommand) {
     const char* const output = "Output";
     subcommand.in(output).add({
         {"--json", &call->json, "File for all results, or - for stdout", "FILE|-"},
-        {"--measure", &call->measure, "Measurements, separated by commas, or all (or help)",
-         "LIST"},
+        measure_option(call->measure, "Measurements, separated by commas, or all (or help)"),
         {"--tables", &call->tables, "Folder for the measurements as CSV tables", "DIR"},
         omit_paths_option(),
         {"--quiet", &call->quiet, "One line of report and no progress"},
@@ -254,9 +254,10 @@ void add_run_command(Subcommand& subcommand) {
     });
     subcommand.set_main_options({"--discs", "--mu", "--body", "--container-radius", "--events",
                                  "--periods", "--warmup", "--seed", "--measure", "--json"});
-    subcommand.set_examples({"swirl run --discs 48", "swirl run --discs 28 --mu 0.5 --json -",
-                             "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
+    subcommand.set_examples({"swirl run --discs 48",
                              "swirl run --discs 48 --measure density,flow --tables maps",
+                             "swirl run --discs 28 --mu 0.5 --json -",
+                             "swirl run --discs 40 --mu-wall 0 --periods 500 --warmup 100",
                              "swirl run study.toml --discs 40 --trajectory frames.h5",
                              "swirl run --discs 48 --events 1e9 --json out.json --resume"});
     subcommand.explain(

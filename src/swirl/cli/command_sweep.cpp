@@ -17,6 +17,7 @@
 #include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/ramp.hpp"
 #include "swirl/run/reading.hpp"
 #include "swirl/run/report.hpp"
 #include "swirl/run/shell_word.hpp"
@@ -32,7 +33,7 @@ namespace fs = std::filesystem;
 
 struct SweepCall {
     std::shared_ptr<ParameterTexts> parameters;
-    std::string config_file, out, points, seeds, measure, frames, chain, my_points;
+    std::string config_file, out, points, replicates, measure, frames, chain, my_points;
     ShareOptions sharing;
     bool status = false, dry_run = false, quiet = false, grow = false, series = false, plot = false;
 };
@@ -40,7 +41,8 @@ struct SweepCall {
 std::vector<std::string> further_measurements(const SweepCall& call) {
     if (!call.frames.empty() || call.series || !call.chain.empty())
         throw UsageError(
-            "--frames, --series and --chain cannot be used with --grow: they apply to all runs of "
+            "--frames-per-period, --series and --chain cannot be used with --grow: they apply to "
+            "all runs of "
             "a sweep or to none.");
     if (call.measure.empty()) return {};
     return read_measurement_list(call.measure);
@@ -53,7 +55,7 @@ struct PlanOfCall {
 };
 
 std::vector<PointRow> points_of_call(const SweepCall& call) {
-    return read_points(call.points, whole_number("seeds", call.seeds, 1, max_replicas));
+    return read_points(call.points, whole_number("replicates", call.replicates, 1, max_replicas));
 }
 
 PlanOfCall grown_plan(const SweepCall& call) {
@@ -61,7 +63,8 @@ PlanOfCall grown_plan(const SweepCall& call) {
     if (!call.points.empty())
         return {grown(before, points_of_call(call), *call.parameters, further_measurements(call)),
                 before};
-    return {grown(before, *call.parameters, whole_number("seeds", call.seeds, 0, max_replicas),
+    return {grown(before, *call.parameters,
+                  whole_number("replicates", call.replicates, 0, max_replicas),
                   further_measurements(call)),
             before};
 }
@@ -76,15 +79,15 @@ SweepPlan existing_plan(const SweepCall& call) {
 
 PlanOfCall plan_of(const SweepCall& call) {
     if (call.grow) return grown_plan(call);
-    if (call.parameters->empty() && call.points.empty() && call.seeds.empty() &&
+    if (call.parameters->empty() && call.points.empty() && call.replicates.empty() &&
         call.measure.empty() && call.frames.empty() && call.chain.empty() && !call.series)
         return {existing_plan(call)};
-    SweepPlan plan =
-        call.points.empty()
-            ? make_plan(*call.parameters, whole_number("seeds", call.seeds, 1, max_replicas))
-            : make_plan(points_of_call(call), *call.parameters);
+    SweepPlan plan = call.points.empty()
+                         ? make_plan(*call.parameters,
+                                     whole_number("replicates", call.replicates, 1, max_replicas))
+                         : make_plan(points_of_call(call), *call.parameters);
     if (!call.measure.empty()) plan.measure = read_measurement_list(call.measure);
-    plan.frames = static_cast<int>(whole_number("frames", call.frames, 0, max_frames));
+    plan.frames = static_cast<int>(whole_number("frames_per_period", call.frames, 0, max_frames));
     plan.series = call.series;
     plan.chain = plain_name(call.chain);
     validate_extras(plan);
@@ -196,6 +199,13 @@ void sweep(const Subcommand& subcommand, const SweepCall& call) {
                     submit(script, call.out), shell_word(call.out)));
 }
 
+Option chain_option(std::string& name) {
+    Option option{"--chain", &name, "Parameter along which each run continues from the last",
+                  "NAME"};
+    option.values = ramp_parameter_names();
+    return option;
+}
+
 void add_sweep_command(Subcommand& subcommand) {
     const auto call = std::make_shared<SweepCall>();
     subcommand.add(
@@ -204,11 +214,12 @@ void add_sweep_command(Subcommand& subcommand) {
     subcommand.in("Sweep").add({
         {"--out", &call->out, "Folder of the sweep; a repeated call completes it", "DIR", required},
         {"--points", &call->points, "Table of points instead of lists of values", "FILE.csv"},
-        {"--seeds", &call->seeds, "Number of replicates of each point [1]", "N"},
-        {"--measure", &call->measure, "Measurements, as for swirl run", "LIST"},
-        {"--frames", &call->frames, "Recorded frames per period of each run [none]", "N"},
+        {"--replicates", &call->replicates, "Number of replicates of each point [1]", "N"},
+        measure_option(call->measure, "Measurements, as for swirl run"),
+        {"--frames-per-period", &call->frames, "Recorded frames per period of each run [none]",
+         "N"},
         {"--series", &call->series, "Table of the averages of every period, for each run"},
-        {"--chain", &call->chain, "Parameter along which each run continues from the last", "NAME"},
+        chain_option(call->chain),
         threads_option(call->sharing),
         {"--plot", &call->plot, "Collect and draw the table when all runs are done"},
         {"--my-points", &call->my_points, "Your table of N, turns, circles, to compare with",
@@ -221,20 +232,23 @@ void add_sweep_command(Subcommand& subcommand) {
     add_cluster_options(subcommand, call->sharing, true);
     subcommand.explain(
         "Every parameter may be a list: 5:48, 0:0.25:1 (from : step : to) or 0.1,0.5,1. A table of "
-        "points has a column for each parameter that varies, and may have a column seeds, the "
+        "points has a column for each parameter that varies, and may have a column replicates, the "
         "number of replicates of each row; other parameters have one value. With "
-        "--grow, the given values, replicates (--seeds is their new total) and measurements are "
+        "--grow, the given values, replicates (--replicates is their new total) and measurements "
+        "are "
         "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
         "With --chain NAME, the runs follow each other in rising and then in falling values of "
         "NAME, and each starts from the final state of the run before it.\n");
-    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--points", "--seeds",
-                                 "--out", "--measure", "--threads", "--grow", "--status"});
-    subcommand.set_examples({"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --seeds 8 --out study",
-                             "swirl sweep --out study --grow --discs 49:55 --seeds 16",
-                             "swirl sweep --points points.csv --periods 200 --seeds 8 --out study",
-                             "swirl sweep plan.toml --out study --slurm --nodes 4 --time 2:00:00",
-                             "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
-                             "swirl sweep --out study --status"});
+    subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--points",
+                                 "--replicates", "--out", "--measure", "--threads", "--grow",
+                                 "--status"});
+    subcommand.set_examples(
+        {"swirl sweep --discs 5:48 --mu 0.1,0.5,1 --replicates 8 --out study",
+         "swirl sweep --out study --grow --discs 49:55 --replicates 16",
+         "swirl sweep --points points.csv --periods 200 --replicates 8 --out study",
+         "swirl sweep plan.toml --out study --slurm --tasks 4 --time 2:00:00",
+         "swirl sweep --mu 0.1:0.1:1 --periods 60 --chain mu --out loop --plot",
+         "swirl sweep --out study --status"});
     subcommand.callback([call, &subcommand] { sweep(subcommand, *call); });
 }
 

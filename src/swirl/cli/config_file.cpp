@@ -105,15 +105,17 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
                             Lists lists, const std::string& command) {
     Config config = parsed(file, command);
     ConfigFile found;
-    for (const auto& [name, entry] : config.entries) {
+    for (const auto& [given, entry] : config.entries) {
         const std::string at = fmt::format("'{}', line {}", file, entry.line);
-        if (std::find(names.begin(), names.end(), name) == names.end()) {
-            const auto meant = nearest_name(name, names);
+        const auto present = present_name(given, names);
+        if (!present) {
+            const auto meant = nearest_name(given, names);
             throw UsageError(
-                fmt::format("{}: there is no option '{}'.\nhint: {}", at, name,
+                fmt::format("{}: there is no option '{}'.\nhint: {}", at, given,
                             meant ? fmt::format("did you mean '{}'?", *meant)
-                                  : "`swirl " + command + " --help` lists all options."));
+                                  : "`swirl help " + command + " all` lists all options."));
         }
+        const std::string name = plain_name(*present);
         if (entry.is_list && lists == Lists::rejected && !takes_list(name))
             throw UsageError(fmt::format(
                 "{}: {} is a list, but needs one value.\nhint: `swirl sweep` takes lists.", at,
@@ -121,7 +123,9 @@ ConfigFile read_config_file(const std::string& file, const std::vector<std::stri
         if (entry.values.empty())
             throw UsageError(fmt::format("{}: the list of {} is empty.", at, name));
         auto& into = find_parameter(name) ? found.parameters : found.others;
-        into.emplace(name, fmt::format("{}", fmt::join(entry.values, ",")));
+        const std::string text = fmt::format("{}", fmt::join(entry.values, ","));
+        if (!into.emplace(name, text).second)
+            throw UsageError(fmt::format("{}: {} is given twice.", at, user_name(name)));
     }
     found.parameters = with_file_contents(std::move(found.parameters));
     found.text = std::move(config.text);

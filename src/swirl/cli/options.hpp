@@ -27,11 +27,19 @@ struct Option {
     bool is_required = false;
     /// Not 0: the option may be repeated, and its values are joined by this character.
     char joined_by = '\0';
+    /// Values that completions offer, if the form does not list them ("disc|sphere").
+    std::vector<std::string> values = {};
     std::string help_group = {};  // set by Group::add()
     bool is_of_run = false;  // a parameter as `swirl run` has it: `swirl help run` describes it
     bool is_given = false;   // set by parse()
 };
 inline constexpr bool required = true;
+
+/// The form of an option with these values: "light|dark".
+std::string one_of(const std::vector<std::string>& values);
+/// The words that are values of the option: those in lower case of "NUMBER|paper|ring", or its
+/// `values`.
+std::vector<std::string> values_of(const Option& option);
 
 class Subcommand {
   public:
@@ -51,7 +59,7 @@ class Subcommand {
     Group in(std::string group) { return {options_, std::move(group)}; }
     void add(std::vector<Option> options) { in("").add(std::move(options)); }
 
-    /// --help lists the main options and the groups of the others, each a page of its own:
+    /// -h and --help list the main options and the groups of all, each a page of its own:
     /// `swirl help NAME GROUP`.
     void divide_help() { is_divided_ = true; }
     bool has_divided_help() const { return is_divided_; }

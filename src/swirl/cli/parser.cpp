@@ -61,12 +61,11 @@ std::string wrapped(const std::string& text, std::size_t width) {
 constexpr std::size_t column_of_descriptions = 34;
 constexpr int max_values = 100;  // values of a repeated option
 
-/// "did you mean --discs?", or nothing.
-std::string nearest_name_hint(const CLI::App& app, const std::string& unknown) {
+/// The option that the user probably means, or "".
+std::string nearest_option(const CLI::App& app, const std::string& unknown) {
     std::vector<std::string> names;
     for (const CLI::Option* option : app.get_options()) names.push_back(option->get_name());
-    const auto nearest = nearest_name(unknown.substr(0, unknown.find('=')), names);
-    return nearest ? "did you mean " + *nearest + "?" : "";
+    return nearest_name(unknown.substr(0, unknown.find('=')), names).value_or("");
 }
 
 /// The parser does not end options at `--` once a subcommand has all its files. Each later word
@@ -80,7 +79,9 @@ std::string without_mark(std::string word) {
 }
 
 struct Message {
-    std::string text, hint = {};
+    std::string text;
+    std::string option = {};  // the one that the text is about
+    std::string meant = {};   // the one that was probably meant
 };
 
 Message message_on_extras(const CLI::App& app) {
@@ -89,27 +90,31 @@ Message message_on_extras(const CLI::App& app) {
     std::erase(extras, "--");
     for (const std::string& extra : extras)
         if (extra.starts_with('-'))
-            return {"there is no option " + extra + ".", nearest_name_hint(app, extra)};
+            return {.text = "there is no option " + extra + ".",
+                    .meant = nearest_option(app, extra)};
     const std::string extra = extras.empty() ? "" : without_mark(extras.front());
-    return {"unexpected argument '" + extra + "'.", nearest_name_hint(app, extra)};
+    return {.text = "unexpected argument '" + extra + "'.", .meant = nearest_option(app, extra)};
 }
 
 Message message_on_missing_value(const std::string& what) {
     const std::string option = what.substr(0, what.find(':'));
-    if (what.find("At Most 1") != what.npos) return {option + " may be given only once."};
-    if (const auto flag = what.find(" was given a disallowed flag override"); flag != what.npos)
-        return {"--" + what.substr(0, flag) + " is a switch and takes no value."};
-    return {option + " needs a value."};
+    if (what.find("At Most 1") != what.npos) return {option + " may be given only once.", option};
+    if (const auto flag = what.find(" was given a disallowed flag override"); flag != what.npos) {
+        const std::string name = "--" + what.substr(0, flag);
+        return {name + " is a switch and takes no value.", name};
+    }
+    return {option + " needs a value.", option};
 }
 
 /// The parser's text is "Could not convert: --fps = 59.94".
 Message message_on_conversion(const std::string& what) {
     const std::size_t colon = what.find(": "), equals = what.find(" = ");
     if (colon > equals || equals == what.npos) return {"a value is not a number."};
+    const std::string option = what.substr(colon + 2, equals - colon - 2);
     const std::string value = what.substr(equals + 3);
-    return {fmt::format("{} is '{}', but it must be a {}.",
-                        what.substr(colon + 2, equals - colon - 2), value,
-                        read_number(value) ? "whole number" : "number")};
+    return {fmt::format("{} is '{}', but it must be a {}.", option, value,
+                        read_number(value) ? "whole number" : "number"),
+            option};
 }
 
 Message message_on_missing_option(const CLI::App& app, const std::string& what) {
@@ -126,7 +131,46 @@ Message message_on_missing_option(const CLI::App& app, const std::string& what) 
                                   : "missing required argument " + name + "."};
 }
 
-std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
+/// "run" for "swirl run".
+std::string command_of(const CLI::App& app) {
+    return app.get_name().substr(std::string_view("swirl ").size());
+}
+
+/// "my-points" for the group "My points".
+std::string topic_of(const std::string& group) {
+    std::string topic = group;
+    for (char& c : topic) c = c == ' ' ? '-' : static_cast<char>(std::tolower(c));
+    return topic;
+}
+
+/// The topics of `swirl help NAME TOPIC`, with the number of options of each.
+std::vector<std::pair<std::string, int>> topics_of(const Subcommand& subcommand) {
+    std::vector<std::pair<std::string, int>> topics;
+    for (const Option& option : subcommand.options()) {
+        if (option.help_group.empty()) continue;
+        const std::string topic = topic_of(option.help_group);
+        const auto same = [&](const auto& known) { return known.first == topic; };
+        auto found = std::find_if(topics.begin(), topics.end(), same);
+        if (found == topics.end()) found = topics.insert(found, {topic, 0});
+        ++found->second;
+    }
+    return topics;
+}
+
+/// The command that describes an option, or else all of them.
+std::string help_on_option(const CLI::App& app, const Subcommand& subcommand,
+                           const std::string& name) {
+    for (const Option& option : subcommand.options()) {
+        if (option.name != name || option.help_group.empty()) continue;
+        if (option.is_of_run) return "swirl help run " + topic_of(option.help_group);
+        if (subcommand.has_divided_help())
+            return fmt::format("swirl help {} {}", command_of(app), topic_of(option.help_group));
+    }
+    return app.get_name() + " --help";
+}
+
+std::string error_text(const CLI::App& app, const Subcommand& subcommand,
+                       const CLI::ParseError& error) {
     Message message{"invalid arguments."};
     if (dynamic_cast<const CLI::ExtrasError*>(&error))
         message = message_on_extras(app);
@@ -136,10 +180,11 @@ std::string error_text(const CLI::App& app, const CLI::ParseError& error) {
         message = message_on_conversion(error.what());
     else if (dynamic_cast<const CLI::RequiredError*>(&error))
         message = message_on_missing_option(app, error.what());
-    return message.hint.empty()
-               ? fmt::format("{}\nhint: see `{} --help`.", message.text, app.get_name())
-               : fmt::format("{}\nhint: {} See `{} --help`.", message.text, message.hint,
-                             app.get_name());
+    if (message.meant.empty())
+        return fmt::format("{}\nhint: see `{}`.", message.text,
+                           help_on_option(app, subcommand, message.option));
+    return fmt::format("{}\nhint: did you mean {}? See `{}`.", message.text, message.meant,
+                       help_on_option(app, subcommand, message.meant));
 }
 
 /// Wraps descriptions at the width of the terminal, and shows a repeated argument as "VIDEO..." in
@@ -206,63 +251,57 @@ void set_help_options(CLI::App& app) {
     app.get_formatter()->column_width(std::min(column_of_descriptions, help_width() / 2));
 }
 
-/// A page of the help with these options. CLI11 adds line feeds at its end.
+/// The help of an app with a footer. CLI11 adds line feeds at its end and before each group.
+std::string text_of(CLI::App& shown, const std::string& footer) {
+    shown.footer(wrapped(footer, help_width()));
+    std::string text = shown.help();
+    while (text.ends_with("\n\n")) text.pop_back();
+    for (std::size_t at = 0; (at = text.find("\n\n\n", at)) != text.npos;) text.erase(at, 1);
+    return text;
+}
+
+/// A page of the help with these options.
 std::string page(const CLI::App& app, const Subcommand& subcommand, const Listed& is_listed,
                  const std::string& footer) {
     CLI::App shown(app.get_description(), app.get_name());
     set_help_options(shown);
     add_to(shown, subcommand, is_listed);
-    shown.footer(wrapped(footer, help_width()));
-    std::string text = shown.help();
-    while (text.ends_with("\n\n")) text.pop_back();
-    return text;
+    return text_of(shown, footer);
 }
 
-/// "run" for "swirl run".
-std::string command_of(const CLI::App& app) {
-    return app.get_name().substr(std::string_view("swirl ").size());
+/// The first page of a divided help: the main options in one group, the topics and two examples.
+std::string first_page(const CLI::App& app, const Subcommand& subcommand) {
+    CLI::App shown(app.get_description(), app.get_name());
+    set_help_options(shown);
+    shown.set_help_all_flag();
+    shown.set_help_flag(fmt::format("{},{}", help_option.name, full_help_option.name),
+                        "Main options and topics");
+    add_to(shown, subcommand, [&](const Option& option) { return subcommand.is_main(option); });
+    for (CLI::Option* const option : shown.get_options())
+        if (!option->get_positional()) option->group("Options");
+    std::string footer = "Topics:";
+    for (const auto& [topic, count] : topics_of(subcommand)) {
+        const std::string call = fmt::format("swirl help {} {}", command_of(app), topic);
+        footer += fmt::format("\n  {:<32}{} options", call, count);
+    }
+    const std::string& examples = subcommand.examples();
+    std::size_t end = 0;
+    for (int line = 0; line < 3 && end < examples.size(); ++line)
+        end = std::min(examples.find('\n', end + 1), examples.size());
+    return text_of(shown, footer + "\n\n" + examples.substr(0, end));
 }
 
 /// The answer to -h.
 std::string short_help(const CLI::App& app, const Subcommand& subcommand) {
+    if (subcommand.has_divided_help()) return first_page(app, subcommand);
     return page(
         app, subcommand, [&](const Option& option) { return subcommand.is_main(option); },
         fmt::format("All options: {} --help\n\n{}", app.get_name(), subcommand.examples()));
 }
 
-/// "my-points" for the group "My points".
-std::string topic_of(const std::string& group) {
-    std::string topic = group;
-    for (char& c : topic) c = c == ' ' ? '-' : static_cast<char>(std::tolower(c));
-    return topic;
-}
-
-/// The topics of `swirl help NAME TOPIC`, with the number of options of each.
-std::vector<std::pair<std::string, int>> topics_of(const Subcommand& subcommand) {
-    std::vector<std::pair<std::string, int>> topics;
-    for (const Option& option : subcommand.options()) {
-        if (option.help_group.empty()) continue;
-        const std::string topic = topic_of(option.help_group);
-        const auto same = [&](const auto& known) { return known.first == topic; };
-        auto found = std::find_if(topics.begin(), topics.end(), same);
-        if (found == topics.end()) found = topics.insert(found, {topic, 0});
-        ++found->second;
-    }
-    return topics;
-}
-
 /// The answer to --help.
 std::string long_help(const CLI::App& app, const Subcommand& subcommand) {
-    if (subcommand.has_divided_help()) {
-        std::string topics = "Topics:";
-        for (const auto& [topic, count] : topics_of(subcommand)) {
-            const std::string call = fmt::format("swirl help {} {}", command_of(app), topic);
-            topics += fmt::format("\n  {:<32}{} options", call, count);
-        }
-        return page(
-            app, subcommand, [&](const Option& option) { return subcommand.is_main(option); },
-            topics + "\n\n" + subcommand.examples());
-    }
+    if (subcommand.has_divided_help()) return first_page(app, subcommand);
     std::string of_run;
     const auto is_of_run = [](const Option& option) { return option.is_of_run; };
     if (std::any_of(subcommand.options().begin(), subcommand.options().end(), is_of_run)) {
@@ -298,10 +337,12 @@ void note_given(const CLI::App& app, Subcommand& subcommand) {
         option.is_given = app.get_option(option.name)->count() > 0;
 }
 
-/// "--mu_disc=1" and "--mu-disc=1" give the same word (plain_name()).
+/// "--mu_disc=1" and "--mu-disc=1" give the same word.
 std::string with_standard_name(const std::string& word) {
     const std::size_t end = std::min(word.find('='), word.size());
-    return option_name(plain_name(word.substr(2, end - 2))) + word.substr(end);
+    std::string name = standard_spelling(word.substr(0, end));
+    std::replace(name.begin(), name.end(), '_', '-');
+    return name + word.substr(end);
 }
 
 /// The arguments in reverse order, as the parser expects them. Standardizes the names of options,
@@ -343,7 +384,7 @@ Call parse(const Command& command, int argc, char** argv) {
     } catch (const CLI::CallForHelp&) {
         return {.text = short_help(app, *subcommand)};
     } catch (const CLI::ParseError& error) {
-        throw UsageError(error_text(app, error));
+        throw UsageError(error_text(app, *subcommand, error));
     }
     note_given(app, *subcommand);
     return {.check = [subcommand] { subcommand->check(); },

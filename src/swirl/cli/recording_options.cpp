@@ -27,9 +27,9 @@ constexpr const char* group = "Files";
 
 constexpr RecordingOption options[] = {
     {"trajectory", "FILE.h5", "Trajectory file to record (HDF5, H5MD)"},
-    {"frames", "N", "Frames per period, at equal phases; 1 is stroboscopic [30]"},
-    {"frame_interval", "TIME", "Time between frames, instead of --frames"},
-    {"frame_events", "N", "Events between frames, instead of --frames"},
+    {"frames_per_period", "N", "Frames per period, at equal phases; 1 is stroboscopic [30]"},
+    {"frame_interval", "TIME", "Time between frames, instead of --frames-per-period"},
+    {"frame_events", "N", "Events between frames, instead of --frames-per-period"},
     {"compression", "0..9", "Deflate level of recordings; 0: none, 9: smallest [0]"},
     {"log_events", "FILE.h5", "Event log to record, with all impulses"},
     {"series", "FILE.csv", "Table of the averages of every period (CSV)"},
@@ -38,7 +38,8 @@ constexpr RecordingOption options[] = {
 };
 
 /// Alternative ways to set the times of frames.
-constexpr const char* frame_times_options[] = {"frames", "frame_interval", "frame_events"};
+constexpr const char* frame_times_options[] = {"frames_per_period", "frame_interval",
+                                               "frame_events"};
 
 std::string text_of(const RecordingCall& call, std::string_view name) {
     const auto found = call.texts.find(name);
@@ -63,13 +64,13 @@ FrameTimes frame_times(const RecordingCall& call) {
     for (const char* name : frame_times_options) given += text_of(call, name).empty() ? 0 : 1;
     if (given > 1)
         throw UsageError(
-            "--frames, --frame-interval and --frame-events exclude each other.\nhint: give one of "
-            "them.");
+            "--frames-per-period, --frame-interval and --frame-events exclude each other.\n"
+            "hint: give one of them.");
     if (given > 0 && text_of(call, "trajectory").empty())
         throw UsageError(
             "the options for frames need a trajectory.\nhint: add --trajectory FILE.h5.");
-    times.per_period = static_cast<int>(
-        whole_number("frames", text_of(call, "frames"), times.per_period, 1'000'000));
+    times.per_period = static_cast<int>(whole_number(
+        "frames_per_period", text_of(call, "frames_per_period"), times.per_period, 1'000'000));
     if (!text_of(call, "frame_interval").empty())
         times.interval =
             number(call, "frame_interval", 0.0, 1e-9, "a time of at least 1e-9, for example 0.1");
@@ -211,7 +212,8 @@ std::string config_file_text(const RunConfig& config, const RecordingCall& recor
     };
     const ParameterTexts texts = texts_of(config);
     for (const Parameter& p : run_parameters)
-        if (const auto found = texts.find(p.name); found != texts.end()) add(p.name, found->second);
+        if (const auto found = texts.find(p.name); found != texts.end())
+            add(user_name(p.name), found->second);
     for (const auto& [name, value] : recording.texts) add(name, value);
     for (const auto& [name, value] : others)
         if (!value->empty()) add(name, *value);

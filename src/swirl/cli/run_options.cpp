@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "swirl/run/measurements.hpp"
 #include "swirl/run/parameter_files.hpp"
 
 namespace swirl {
@@ -35,6 +36,13 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
     }
     subcommand.refer_to_run(std::move(missing));
     return texts;
+}
+
+Option measure_option(std::string& list, const char* description) {
+    Option option{"--measure", &list, description, "LIST"};
+    for (const MeasurementKind& kind : measurement_kinds()) option.values.emplace_back(kind.name);
+    option.values.emplace_back("all");
+    return option;
 }
 
 }  // namespace swirl

@@ -17,4 +17,7 @@ std::shared_ptr<ParameterTexts> add_run_options(Subcommand& subcommand,
                                                 const std::vector<std::string>& excluded = {},
                                                 const ParameterTexts& defaults = {});
 
+/// --measure
+Option measure_option(std::string& list, const char* description);
+
 }  // namespace swirl

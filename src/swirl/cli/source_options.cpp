@@ -34,7 +34,8 @@ std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
         {"--over", &texts->images, "Camera images or video to draw over", "NAME"},
         {"--over-first", &texts->first_image, "Number of frame 0 among the images [0]", "NUMBER"},
     });
-    texts->parameters = add_run_options(subcommand, {"events", "periods", "warmup", "ramp"});
+    texts->parameters =
+        add_run_options(subcommand, {"events", "periods", "warmup", "events_per_sample", "ramp"});
     return texts;
 }
 

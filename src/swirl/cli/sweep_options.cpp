@@ -10,7 +10,7 @@
 namespace swirl {
 namespace {
 
-constexpr std::int64_t max_parts = 1'000'000, max_nodes = 100'000, max_cores = 4096;
+constexpr std::int64_t max_parts = 1'000'000, max_tasks = 100'000, max_cores = 4096;
 
 }  // namespace
 
@@ -34,8 +34,8 @@ SweepShare ShareOptions::share() const {
 
 SlurmJob ShareOptions::slurm_job() const {
     SlurmJob result = job;
-    result.nodes = static_cast<int>(whole_number("nodes", nodes, 1, max_nodes));
-    result.cpus = static_cast<int>(whole_number("cpus", cpus, 0, max_cores));
+    result.tasks = static_cast<int>(whole_number("tasks", tasks, 1, max_tasks));
+    result.cores = static_cast<int>(whole_number("cores", cores, 0, max_cores));
     return result;
 }
 
@@ -52,8 +52,8 @@ void add_cluster_options(Subcommand& subcommand, ShareOptions& options, bool wit
                                      "After the part, run points that no process works on"}});
     subcommand.in(cluster).add({
         {"--slurm", &options.slurm, "Submit a Slurm job array instead of running here"},
-        {"--nodes", &options.nodes, "Number of tasks of the array [1]", "N"},
-        {"--cpus", &options.cpus, "Cores per task [the default of the cluster]", "N"},
+        {"--tasks", &options.tasks, "Number of tasks of the array [1]", "N"},
+        {"--cores", &options.cores, "Cores per task [the default of the cluster]", "N"},
         {"--time", &options.job.time, "Time limit of a task, in the format of sbatch", "TIME"},
         {"--partition", &options.job.partition, "Slurm partition", "NAME"},
         {"--sbatch", &options.job.sbatch, "Further option of sbatch, such as mem=4G; repeatable",

@@ -11,13 +11,13 @@
 namespace swirl {
 
 struct ShareOptions {
-    std::string part, threads, nodes, cpus;
+    std::string part, threads, tasks, cores;
     SlurmJob job;
     bool slurm = false, rest = false;
 
     /// Throws UsageError.
     SweepShare share() const;
-    /// The Slurm job with its numbers of nodes and cores. Throws UsageError.
+    /// The Slurm job with its numbers of tasks and cores. Throws UsageError.
     SlurmJob slurm_job() const;
 };
 

@@ -427,17 +427,6 @@ void draw_swirl(const Canvas& canvas, const View& view, const SceneStyle& style,
 
 }  // namespace
 
-std::optional<Coloring> coloring_named(std::string_view name) {
-    if (name == "sector") return Coloring::sector;
-    if (name == "pinned") return Coloring::pinned;
-    if (name == "spin") return Coloring::spin;
-    if (name == "speed") return Coloring::speed;
-    if (name == "slip") return Coloring::slip;
-    if (name == "none") return Coloring::none;
-    if (name == "id") return Coloring::id;
-    return std::nullopt;
-}
-
 void draw_arrow(const Canvas& canvas, Vec2 tail, Vec2 tip, double width, const Color& color,
                 const std::optional<Color>& rim) {
     const Vec2 along = tip - tail;

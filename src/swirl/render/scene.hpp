@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "swirl/physics/snapshot.hpp"
@@ -32,7 +33,10 @@ enum class Coloring : std::uint8_t {
     id,      // seven hues in turn, to follow a disc by eye
 };
 
-std::optional<Coloring> coloring_named(std::string_view name);
+inline constexpr std::pair<std::string_view, Coloring> colorings[] = {
+    {"sector", Coloring::sector}, {"pinned", Coloring::pinned}, {"spin", Coloring::spin},
+    {"speed", Coloring::speed},   {"slip", Coloring::slip},     {"none", Coloring::none},
+    {"id", Coloring::id}};
 
 struct SceneStyle {
     Theme theme = dark_theme();

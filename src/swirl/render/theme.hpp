@@ -1,8 +1,8 @@
 // Colour themes: a dark one for projectors and screens, a light one for paper.
 #pragma once
 
-#include <optional>
 #include <string_view>
+#include <utility>
 
 #include "swirl/render/color.hpp"
 
@@ -65,11 +65,7 @@ constexpr Theme light_theme() {
             .curve = color_from_hex(0x0072B2)};
 }
 
-/// The theme "dark" or "light"; nothing for any other name.
-inline std::optional<Theme> theme_named(std::string_view name) {
-    if (name == "dark") return dark_theme();
-    if (name == "light") return light_theme();
-    return std::nullopt;
-}
+inline constexpr std::pair<std::string_view, Theme (*)()> themes[] = {{"light", light_theme},
+                                                                      {"dark", dark_theme}};
 
 }  // namespace swirl

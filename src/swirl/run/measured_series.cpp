@@ -227,7 +227,7 @@ MeasuredSeries measure_series(const SnapshotSeries& series, const std::vector<st
         add_remark(
             "frames are not at equal steps of time: the rotation is averaged by time, but the "
             "measurements count every frame the same, as an average by event does.\nhint: record "
-            "--frames per period.");
+            "with --frames-per-period.");
     if (measured.frames > 1 && whole_periods(measured) < min_blocks_of_an_error)
         add_remark(fmt::format(
             "errors are n/a, because {:.1f} periods are too few for an error: {} are needed, and "

@@ -1,6 +1,7 @@
 #include "swirl/run/names.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -24,53 +25,68 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// Words that users of other programs may try, and names of earlier versions; and the names that
-/// have this meaning here.
-constexpr std::pair<std::string_view, std::string_view> names_of_equal_meaning[] = {
-    {"o", "out"},
-    {"o", "json"},
-    {"out", "json"},
-    {"out", "csv"},
-    {"output", "out"},
-    {"output", "json"},
-    {"output", "csv"},
-    {"friction", "mu"},
-    {"number", "discs"},
-    {"replicates", "seeds"},
-    {"spheres", "discs"},
-    {"particles", "discs"},
-    {"jobs", "threads"},
-    {"cores", "threads"},
-    {"frames", "frame-files"},
-    {"frames", "max-frames"},
-    {"path", "path-out"},
-    {"to", "format"},
-    {"skip", "warmup"},
-    {"from", "start"},
-    {"at", "start"},
-    {"of", "quantity"},
-    {"misfit", "max-invalid"},
-    {"turned", "turned-angle"},
-    {"rest", "finish-others"},
-    {"hands", "hand-time"},
-    {"still", "camera-on-container"},
-    {"bare", "no-annotations"},
-    {"accept", "correct-frames"},
-    {"by_time", "mean_by_time"},
-    {"by_event", "mean_by_event"}};
+using NamePair = std::pair<std::string_view, std::string_view>;
+
+/// Parameters whose option has another name than their key in results, recordings and tables.
+constexpr NamePair option_of_key[] = {{"path", "motion"}, {"path_phase", "start_angle"}};
+
+/// Former and present names of options of commands that read a configuration file.
+constexpr NamePair renamed_options[] = {
+    {"frame", "view"},       {"frames", "frames_per_period"},
+    {"seeds", "replicates"}, {"omit_paths", "portable"},
+    {"nodes", "tasks"},      {"cpus", "cores"},
+};
+
+/// Words that users of other programs may try, and other former names; and the names that have this
+/// meaning here.
+constexpr NamePair names_of_equal_meaning[] = {{"o", "out"},
+                                               {"o", "json"},
+                                               {"out", "json"},
+                                               {"out", "csv"},
+                                               {"output", "out"},
+                                               {"output", "json"},
+                                               {"output", "csv"},
+                                               {"friction", "mu"},
+                                               {"number", "discs"},
+                                               {"spheres", "discs"},
+                                               {"particles", "discs"},
+                                               {"jobs", "threads"},
+                                               {"cores", "threads"},
+                                               {"frames", "frame_files"},
+                                               {"frames", "max_frames"},
+                                               {"path", "motion_out"},
+                                               {"path_out", "motion_out"},
+                                               {"length", "periods"},
+                                               {"max_frames", "frame_count"},
+                                               {"smooth", "smooth_discs"},
+                                               {"to", "last_frame"},
+                                               {"to", "format"},
+                                               {"skip", "ignore_frames"},
+                                               {"skip", "warmup"},
+                                               {"from", "first_frame"},
+                                               {"from", "start"},
+                                               {"at", "start"},
+                                               {"of", "quantity"},
+                                               {"misfit", "max_invalid"},
+                                               {"turned", "turned_angle"},
+                                               {"rest", "finish_others"},
+                                               {"hands", "hand_time"},
+                                               {"still", "camera_on_container"},
+                                               {"bare", "no_annotations"},
+                                               {"accept", "correct_frames"},
+                                               {"by_time", "mean_by_time"},
+                                               {"by_event", "mean_by_event"}};
 
 std::string_view without_dashes(std::string_view option) {
     return option.substr(std::min(option.find_first_not_of('-'), option.size()));
 }
 
-/// True for one name in two spellings, such as "--path-out" and "path_out".
-bool is_same_name(std::string_view a, std::string_view b) {
-    return plain_name(without_dashes(a)) == plain_name(without_dashes(b));
-}
+/// Plain, and without dashes at the start.
+std::string plain_option(std::string_view option) { return plain_name(without_dashes(option)); }
 
 }  // namespace
 
-std::string plain_name(std::string_view name) {
+std::string standard_spelling(std::string_view name) {
     std::string plain(name);
     std::replace(plain.begin(), plain.end(), '-', '_');
     constexpr std::string_view spellings[][2] = {{"colour", "color"}, {"center", "centre"}};
@@ -80,18 +96,45 @@ std::string plain_name(std::string_view name) {
     return plain;
 }
 
-std::string option_name(std::string_view name) {
-    std::string option(name);
-    std::replace(option.begin(), option.end(), '_', '-');
-    return "--" + option;
+std::string plain_name(std::string_view name) {
+    std::string plain = standard_spelling(name);
+    for (const auto& [key, option] : option_of_key)
+        if (plain == option) plain = key;
+    return plain;
+}
+
+std::string user_name(std::string_view key) {
+    for (const auto& [other, option] : option_of_key)
+        if (key == other) key = option;
+    return std::string(key);
+}
+
+std::string option_name(std::string_view key) {
+    std::string name = user_name(key);
+    std::replace(name.begin(), name.end(), '_', '-');
+    return "--" + name;
+}
+
+std::optional<std::string> present_name(std::string_view name,
+                                        const std::vector<std::string>& names) {
+    const auto named = [&](std::string_view plain) {
+        return std::find_if(names.begin(), names.end(),
+                            [&](const std::string& other) { return plain_option(other) == plain; });
+    };
+    const std::string plain = plain_option(name);
+    auto found = named(plain);
+    for (const auto& [former, present] : renamed_options)
+        if (found == names.end() && plain == former) found = named(present);
+    return found == names.end() ? std::nullopt : std::optional(*found);
 }
 
 std::optional<std::string> nearest_name(std::string_view unknown,
                                         const std::vector<std::string>& names) {
+    if (auto present = present_name(unknown, names)) return present;
     const std::string_view word = without_dashes(unknown);
     for (const auto& [other, own] : names_of_equal_meaning)
         for (const std::string& name : names)
-            if (is_same_name(word, other) && is_same_name(name, own)) return name;
+            if (plain_option(word) == other && plain_option(name) == own) return name;
     std::optional<std::string> best;
     std::size_t minimum = std::max<std::size_t>(2, word.size() / 3) + 1;
     for (const std::string& name : names) {

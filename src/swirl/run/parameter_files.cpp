@@ -83,7 +83,7 @@ std::string table_rows(const std::string& option, const std::string& file,
 std::string path_text(const std::string& text) {
     if (text.empty() || is_path_shape(text) || !names_file(text)) return text;
     return "points" +
-           table_rows("--path", text, {{{"t", "time"}}, {{"x"}}, {{"y"}}}, max_path_points);
+           table_rows("--motion", text, {{{"t", "time"}}, {{"x"}}, {{"y"}}}, max_path_points);
 }
 
 std::string sizes_text(const std::string& text) {

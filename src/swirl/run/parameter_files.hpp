@@ -1,4 +1,4 @@
-// Parameters whose value may be the name of a file: --path FILE.csv, --sizes file:FILE.csv and
+// Parameters whose value may be the name of a file: --motion FILE.csv, --sizes file:FILE.csv and
 // --initial FILE.csv. The contents of the file replace its name before the configuration is made. A
 // configuration therefore holds these contents, and a resumed run does not depend on the file.
 #pragma once

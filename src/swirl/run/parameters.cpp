@@ -30,14 +30,6 @@ Message about(Code code, std::string_view name, std::string_view text) {
     return {code, {{"name", option_name(name)}, {"text", text}}};
 }
 
-[[noreturn]] void reject_choice(std::string_view name, std::string_view text,
-                                const std::vector<std::string>& choices) {
-    Message message("not_a_choice",
-                    {{"name", option_name(name)}, {"text", text}, {"choices", choices}});
-    add_nearest_value(message, text, choices);
-    throw_usage_error(message);
-}
-
 /// Adds why a text is no number, if it has a unit or a decimal comma, or is a list or a range.
 void add_hint_on_number(Message& message, std::string_view text) {
     if (!text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) &&
@@ -458,7 +450,7 @@ const Parameter* find_parameter(std::string_view name) {
 std::vector<std::string> parameter_names() {
     std::vector<std::string> names;
     for (const Parameter& p : run_parameters)
-        if (p.is_settable()) names.emplace_back(p.name);
+        if (p.is_settable()) names.push_back(user_name(p.name));
     return names;
 }
 

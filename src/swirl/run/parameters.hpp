@@ -113,12 +113,12 @@ inline constexpr const char *main = "main", *friction = "friction", *particles =
 }
 
 struct Parameter {
-    const char* name;             // "mu_disc": the key in every file; the option is --mu-disc
-    const char* symbol = "";      // symbol in docs/explanation/physics.md
-    const char* unit = "";        // "length", "time", …; empty for a pure number
-    const char* form = "";        // the value after the option: "NUMBER"
-    const char* description;      // --help shows it: at most 60 characters
-    const char* details = "";     // further sentences for docs/reference/parameters.md
+    const char* name;          // "mu_disc": the key in results; the option is --mu-disc (names.hpp)
+    const char* symbol = "";   // symbol in docs/explanation/physics.md
+    const char* unit = "";     // "length", "time", …; empty for a pure number
+    const char* form = "";     // the value after the option: "NUMBER"
+    const char* description;   // --help shows it: at most 60 characters
+    const char* details = "";  // further sentences for docs/reference/parameters.md
     const char* group = nullptr;  // the first row of a group names it
     /// The member of RunConfig and its allowed range.
     std::variant<std::monostate, double RunConfig::*, std::int64_t RunConfig::*, int RunConfig::*,
@@ -169,7 +169,7 @@ extern const std::span<const Parameter> run_parameters;
 
 /// The row with this name, spelled with underscores or hyphens; nullptr if there is none.
 const Parameter* find_parameter(std::string_view name);
-/// The names of all settable parameters, in the order of the table.
+/// The names of all settable parameters for users, in the order of the table.
 std::vector<std::string> parameter_names();
 
 ParameterValue value_of(const Parameter& parameter, const RunConfig& config);

@@ -245,13 +245,8 @@ ParameterValue write_path(const RunConfig& config) {
 }
 
 void read_direction(std::string_view text, const ParameterTexts&, RunConfig& config) {
-    if (text != "clockwise" && text != "counter-clockwise") {
-        const std::vector<std::string> choices{"counter-clockwise", "clockwise"};
-        Message message("not_a_choice",
-                        {{"name", "--direction"}, {"text", text}, {"choices", choices}});
-        add_nearest_value(message, text, choices);
-        throw_usage_error(message);
-    }
+    if (text != "clockwise" && text != "counter-clockwise")
+        reject_choice("direction", text, {"counter-clockwise", "clockwise"});
     config.clockwise = text == "clockwise";
 }
 ParameterValue write_direction(const RunConfig& config) {

@@ -1,4 +1,4 @@
-// The parameter --path: its texts, and the container's path that follows from a configuration.
+// The parameter --motion: its texts, and the container's path that follows from a configuration.
 //
 //     polygon | circle | line | ellipse:RATIO | lissajous:P:Q[:DEGREES] | points T:X:Y T:X:Y …
 //

@@ -4,7 +4,10 @@
 #include <charconv>
 #include <cmath>
 
+#include "swirl/run/failure.hpp"
+
 namespace swirl {
+
 std::optional<std::int64_t> read_whole_number(std::string_view text) {
     std::int64_t whole_value = 0;
     const char* const last = text.data() + text.size();
@@ -38,6 +41,14 @@ void add_nearest_value(Message& message, std::string_view text,
 std::string nearest_value_hint(std::string_view text, const std::vector<std::string>& names) {
     const auto nearest = nearest_name(text, names);
     return nearest ? Message("did_you_mean", {{"name", *nearest}}).english() : "";
+}
+
+void reject_choice(std::string_view name, std::string_view text,
+                   const std::vector<std::string>& choices) {
+    Message message("not_a_choice",
+                    {{"name", option_name(name)}, {"text", text}, {"choices", choices}});
+    add_nearest_value(message, text, choices);
+    throw_usage_error(message);
 }
 
 }  // namespace swirl

@@ -28,5 +28,8 @@ void add_nearest_value(Message& message, std::string_view text,
                        const std::vector<std::string>& names);
 /// The same hint as text; "" if none is near.
 std::string nearest_value_hint(std::string_view text, const std::vector<std::string>& names);
+/// Throws UsageError: the value of the option `name` must be one of `choices`.
+[[noreturn]] void reject_choice(std::string_view name, std::string_view text,
+                                const std::vector<std::string>& choices);
 
 }  // namespace swirl

@@ -276,7 +276,8 @@ class Recorder {
         }
         if (config_.ramp_of("period") && !files_.trajectory.empty() && files_.frames.interval)
             throw UsageError(
-                "--frame-interval cannot be used with a ramp of the period.\nhint: use --frames, "
+                "--frame-interval cannot be used with a ramp of the period.\nhint: use "
+                "--frames-per-period, "
                 "the number of frames per period.");
     }
 

@@ -44,7 +44,7 @@ std::string energy_warning(const RunResult& r) {
     return fmt::format(
         "without friction, the energy grows without bound on the polygon: from {:.4g} to {:.4g} in "
         "{:.1f} periods, by a factor of {:.1f}. K − ΩL (kinetic energy K, angular momentum L), "
-        "which is conserved on a circle (--path circle), grew by {:.4g}, or {:.3g} per period. "
+        "which is conserved on a circle (--motion circle), grew by {:.4g}, or {:.3g} per period. "
         "Quantities that depend on the speed of the discs have no steady state.",
         r.energy_at_start, r.energy, r.periods, r.energy / r.energy_at_start, growth, per_period);
 }

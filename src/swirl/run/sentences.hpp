@@ -62,9 +62,9 @@ inline constexpr Sentence sentences[] = {
      "--speed is {speed}, but with --amplitude {amplitude} the container is at rest.\n"
      "hint: set both to 0, or neither."},
     {"circle_has_no_sides",
-     "--sides is {sides}, but --path circle has no sides.\nhint: omit one of the two."},
+     "--sides is {sides}, but --motion circle has no sides.\nhint: omit one of the two."},
     {"path_has_its_sides",
-     "--sides is {sides}, but the file of --path defines its segments.\n"
+     "--sides is {sides}, but the file of --motion defines its segments.\n"
      "hint: omit one of the two."},
     {"ramp_without_floor",
      "--ramp changes {name}, but there is no floor.\nhint: add --floor sliding."},
@@ -154,40 +154,40 @@ inline constexpr Sentence sentences[] = {
 
     // The path of the container.
     {"not_a_path",
-     "--path is '{text}', but it must be polygon, circle, line, ellipse:RATIO, "
+     "--motion is '{text}', but it must be polygon, circle, line, ellipse:RATIO, "
      "lissajous:P:Q[:DEGREES] or a file."},
     {"not_an_ellipse",
-     "--path is '{text}', but an ellipse needs the ratio of its y axis to its x axis, a number from "
+     "--motion is '{text}', but an ellipse needs the ratio of its y axis to its x axis, a number from "
      "0 to {most}, for example ellipse:0.5."},
     {"not_a_lissajous_figure",
-     "--path is '{text}', but a Lissajous figure needs its cycles along x and y in a period, whole "
+     "--motion is '{text}', but a Lissajous figure needs its cycles along x and y in a period, whole "
      "numbers from 1 to {most}, and may have the lead of y from -360 to 360 degrees, for example "
      "lissajous:2:3 or lissajous:1:2:45."},
-    {"not_a_point", "point {point} of --path is '{text}', but it must be T:X:Y."},
+    {"not_a_point", "point {point} of --motion is '{text}', but it must be T:X:Y."},
     {"point_without_number",
-     "point {point} of --path has '{text}', but it must be a finite number."},
+     "point {point} of --motion has '{text}', but it must be a finite number."},
     {"point_out_of_range",
-     "point {point} of --path has {value}, but it must be a number from {from} to {to}."},
+     "point {point} of --motion has {value}, but it must be a number from {from} to {to}."},
     {"point_too_early",
-     "point {point} of --path is at time {time}, but the point before it is at {before}: times must "
+     "point {point} of --motion is at time {time}, but the point before it is at {before}: times must "
      "increase."},
     {"too_few_points",
-     "--path has {points} {points|point|points}, but a closed path needs at least three: the last "
+     "--motion has {points} {points|point|points}, but a closed path needs at least three: the last "
      "one repeats the first at the end of the period."},
     {"too_many_points",
-     "--path has {points} points, but at most {most} are allowed.\n"
+     "--motion has {points} points, but at most {most} are allowed.\n"
      "hint: keep fewer points per period."},
     {"open_path",
-     "--path is not closed: it starts at ({x}, {y}) and ends at ({x_end}, {y_end}).\n"
+     "--motion is not closed: it starts at ({x}, {y}) and ends at ({x_end}, {y_end}).\n"
      "hint: the last point repeats the first at the end of the period."},
     {"points_at_origin",
-     "--amplitude is {amplitude}, but the points of --path are all at the origin."},
+     "--amplitude is {amplitude}, but the points of --motion are all at the origin."},
     {"circle_with_floor",
-     "--path is circle, but on it floor friction changes direction while a particle slides, so its "
-     "trajectory is not a parabola.\nhint: use --path polygon."},
+     "--motion is circle, but on it floor friction changes direction while a particle slides, so its "
+     "trajectory is not a parabola.\nhint: use --motion polygon."},
     {"few_sides_of_lissajous_figure",
      "--sides is {sides}, but a Lissajous figure with {cycles} cycles needs at least {least}."},
-    {"wide_ellipse", "the y axis of --path ellipse is {axis}, but it must not exceed {most}."},
+    {"wide_ellipse", "the y axis of --motion ellipse is {axis}, but it must not exceed {most}."},
 
     // During a run.
     {"inelastic_collapse",
@@ -212,7 +212,7 @@ inline constexpr Sentence sentences[] = {
 
     // Hints that several errors have.
     {"did_you_mean", "\nhint: did you mean '{name}'?"},
-    {"see_help", "\nhint: see `swirl run --help`."},
+    {"see_help", "\nhint: see `swirl help run all`."},
     {"units", "\nhint: units are um, mm, cm, m, in; us, ms, s, min, rpm, Hz; mm/s, m/s, m/s2."},
     {"decimal_point",
      "\nhint: use a decimal point, {whole}.{decimals}; `swirl sweep` takes lists and ranges."},

@@ -147,6 +147,8 @@ const char* verdict_word(Crossing::Verdict verdict);
 
 /// The index of a name in rotation_rates. Throws UsageError.
 std::size_t rate_named(const std::string& name);
+/// The names of rotation_rates.
+std::vector<std::string> rate_names();
 
 /// "38.3 ± 0.1" or "between 36 and 40".
 std::string change_words(const SignChange& change);

@@ -154,20 +154,16 @@ std::string verdict_report(const CrossingSettings& settings, const CrossingResul
 
 }  // namespace
 
+std::vector<std::string> rate_names() {
+    std::vector<std::string> names;
+    for (const RotationRate& rate : rotation_rates) names.emplace_back(rate.name);
+    return names;
+}
+
 std::size_t rate_named(const std::string& name) {
-    std::string names;
-    std::vector<std::string> choices;
-    for (std::size_t r = 0; r < rotation_rates.size(); ++r) {
+    for (std::size_t r = 0; r < rotation_rates.size(); ++r)
         if (name == rotation_rates[r].name) return r;
-        choices.emplace_back(rotation_rates[r].name);
-        names += fmt::format("{}{}",
-                             r == 0                          ? ""
-                             : r + 1 < rotation_rates.size() ? ", "
-                                                             : " or ",
-                             rotation_rates[r].name);
-    }
-    throw UsageError(fmt::format("--rate is '{}', but it must be {}.{}", name, names,
-                                 nearest_value_hint(name, choices)));
+    reject_choice("rate", name, rate_names());
 }
 
 const char* verdict_word(Crossing::Verdict verdict) {

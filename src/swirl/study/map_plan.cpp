@@ -98,7 +98,7 @@ std::string measurement_of(const std::string& quantity) {
 void validate_steps(std::int64_t steps) { validate_whole_number("--steps", steps, 2, max_steps); }
 
 void validate_runs(std::int64_t runs) {
-    validate_whole_number("--seeds", runs, 1, max_runs_at_a_point);
+    validate_whole_number("--replicates", runs, 1, max_runs_at_a_point);
 }
 
 /// Checks that need only the target and the maximum of runs at a point.

@@ -16,28 +16,29 @@
 namespace swirl {
 namespace {
 
-constexpr const char* replicas_column = "seeds";
+constexpr const char* replicas_column = "replicates";
 
 [[noreturn]] void reject(const std::string& where, const std::string& problem) {
     throw UsageError(where + ": " + problem);
 }
 
-/// The parameters that the headers of a file name, and `seeds`.
+/// The parameters that the headers of a file name, and `replicates`.
 std::vector<std::string> names_in_header(const TextLines& lines,
                                          const std::vector<std::string>& header) {
     std::vector<std::string> known = parameter_names();
     known.emplace_back(replicas_column);
     std::vector<std::string> names;
     for (const std::string& given : header) {
-        const std::string name = plain_name(in_lower_case(given));
-        if (name.empty()) lines.fail("a column has no name");
-        if (std::find(known.begin(), known.end(), name) == known.end()) {
-            const auto meant = nearest_name(name, known);
+        if (given.empty()) lines.fail("a column has no name");
+        const auto present = present_name(in_lower_case(given), known);
+        if (!present) {
+            const auto meant = nearest_name(in_lower_case(given), known);
             reject(lines.position(),
                    fmt::format("there is no parameter '{}'.\nhint: {}", given,
                                meant ? fmt::format("did you mean '{}'?", *meant)
-                                     : "a column is a parameter of `swirl run`, or seeds."));
+                                     : "a column is a parameter of `swirl run`, or replicates."));
         }
+        const std::string name = plain_name(*present);
         if (std::find(names.begin(), names.end(), name) != names.end())
             lines.fail(fmt::format("there are two columns '{}'", name));
         names.push_back(name);
@@ -185,7 +186,7 @@ PointRow point_row(std::string where, const ParameterTexts& cells, std::int64_t 
         const auto number = read_whole_number(seeds->second);
         if (!number || *number < 1 || *number > max_replicas)
             reject(row.where,
-                   fmt::format("seeds is '{}', but it must be a whole number from 1 to {}.",
+                   fmt::format("replicates is '{}', but it must be a whole number from 1 to {}.",
                                seeds->second, max_replicas));
         row.replicas = *number;
         row.parameters.erase(seeds);

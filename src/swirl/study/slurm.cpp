@@ -86,8 +86,8 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const char
     validate_characters("--time", job.time, ":-", "a time for sbatch, for example 2:00:00 or 1-12");
     validate_characters("--partition", job.partition, "_-.,", "the name of a partition");
     std::string text = "#!/bin/bash\n#SBATCH --job-name=swirl\n";
-    text += fmt::format("#SBATCH --array=1-{}\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n", job.nodes);
-    if (job.cpus > 0) text += fmt::format("#SBATCH --cpus-per-task={}\n", job.cpus);
+    text += fmt::format("#SBATCH --array=1-{}\n#SBATCH --nodes=1\n#SBATCH --ntasks=1\n", job.tasks);
+    if (job.cores > 0) text += fmt::format("#SBATCH --cpus-per-task={}\n", job.cores);
     if (!job.time.empty()) text += fmt::format("#SBATCH --time={}\n", job.time);
     if (!job.partition.empty()) text += fmt::format("#SBATCH --partition={}\n", job.partition);
     for (const std::string& option : job.sbatch) text += sbatch_line(option);
@@ -98,7 +98,7 @@ std::string slurm_script(const SlurmJob& job, const fs::path& folder, const char
                         sbatch_path(sweep / "log"));
     text +=
         fmt::format("exec {} {} --out {} --part \"$SLURM_ARRAY_TASK_ID/{}\" --threads ",
-                    shell_word(program.string()), command, shell_word(sweep.string()), job.nodes);
+                    shell_word(program.string()), command, shell_word(sweep.string()), job.tasks);
     return text + "\"$SLURM_CPUS_ON_NODE\"\n";
 }
 

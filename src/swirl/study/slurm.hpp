@@ -11,8 +11,8 @@
 namespace swirl {
 
 struct SlurmJob {
-    int nodes = 1;                         // tasks of the array
-    int cpus = 0;                          // number per task; 0: the cluster's default
+    int tasks = 1;                         // number in the array
+    int cores = 0;                         // number per task; 0: the cluster's default
     std::string time, partition;           // options of sbatch; empty: the cluster's default
     std::vector<std::string> sbatch = {};  // further options: "--account=physics"
 };

@@ -43,8 +43,8 @@ std::string command_of(const SweepPlan& plan, std::size_t point, std::uint64_t s
     for (const SweepAxis& axis : plan.axes)
         sweep += fmt::format(" {} {}", option_name(axis.name),
                              shell_word(fmt::format("{}", fmt::join(axis.values, ","))));
-    return sweep +
-           fmt::format("{} --seeds {} --chain {} --out DIR", measure, plan.replicas, plan.chain);
+    return sweep + fmt::format("{} --replicates {} --chain {} --out DIR", measure, plan.replicas,
+                               plan.chain);
 }
 
 /// The relative time that a point takes. A run of N discs in the paper's container has about N^2.5

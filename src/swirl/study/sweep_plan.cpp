@@ -169,7 +169,7 @@ void reject_repeated_runs(const SweepPlan& plan, const SweepAxis& axis) {
             throw UsageError(
                 fmt::format("{0} {1} and {0} {2} are the same run here.\nhint: omit one of them, "
                             "or the parameter that overrides it. For several runs of each, use "
-                            "--seeds.",
+                            "--replicates.",
                             option_name(axis.name), before->second, value));
     }
 }
@@ -335,9 +335,9 @@ void validate_whole_number(const char* option, std::int64_t value, std::int64_t 
 // Finds errors of single values, and of the rows of a table. Errors of combinations of values
 // appear when the point runs.
 void validate(const SweepPlan& plan) {
-    validate_whole_number("--seeds", plan.replicas, 1, max_replicas);
+    validate_whole_number("--replicates", plan.replicas, 1, max_replicas);
     for (const std::int64_t row : plan.row_replicas)
-        validate_whole_number("--seeds", row, 1, max_replicas);
+        validate_whole_number("--replicates", row, 1, max_replicas);
     if (const double count = number_of_runs(plan); count > double(max_points))
         throw UsageError(fmt::format("the call plans {:.3g} runs, but at most {} are possible.",
                                      count, max_points));
@@ -401,12 +401,13 @@ static void validate_chain(const SweepPlan& plan) {
                 "--chain and --{} cannot be combined.\nhint: omit one of them.", other));
     if (plan.frames > 0)
         throw UsageError(
-            "--chain and --frames cannot be combined: a recording does not store the state in "
+            "--chain and --frames-per-period cannot be combined: a recording does not store the "
+            "state in "
             "which its run starts.\nhint: use `swirl sweep --series`, or `swirl run --ramp`.");
 }
 
 void validate_extras(const SweepPlan& plan) {
-    validate_whole_number("--frames", plan.frames, 0, max_frames);
+    validate_whole_number("--frames-per-period", plan.frames, 0, max_frames);
     if (!plan.measure.empty())
         read_measurement_list(fmt::format("{}", fmt::join(plan.measure, ",")));
     if (!plan.chain.empty()) validate_chain(plan);
@@ -456,8 +457,9 @@ SweepPlan with_values(const SweepPlan& plan, const std::vector<SweepAxis>& more,
         plan.is_table() ? *std::min_element(plan.row_replicas.begin(), plan.row_replicas.end())
                         : plan.replicas;
     if (replicas > 0 && replicas < existing)
-        throw UsageError(fmt::format("--seeds is {}, but the {} already has {} and can only grow.",
-                                     replicas, plan.kind(), existing));
+        throw UsageError(
+            fmt::format("--replicates is {}, but the {} already has {} and can only grow.",
+                        replicas, plan.kind(), existing));
     larger.replicas = std::max(replicas, plan.replicas);
     for (std::int64_t& row : larger.row_replicas) row = std::max(replicas, row);
     return extended(plan, std::move(larger), measure);

@@ -146,7 +146,7 @@ void validate(const SweepPlan& plan);
 /// command line, of Python and of files are validated by these two functions.
 void validate_extras(const SweepPlan& plan);
 
-/// Throws UsageError if the value of the option ("--seeds") is outside the range.
+/// Throws UsageError if the value of the option ("--replicates") is outside the range.
 void validate_whole_number(const char* option, std::int64_t value, std::int64_t least,
                            std::int64_t most);
 

@@ -5,6 +5,7 @@ import type {Laboratory} from "../engine/laboratory";
 import type {Player} from "./player";
 import type {Coloring, View} from "../drawing/view";
 import type {Transport} from "./transport";
+import {optionOf} from "../texts/symbols";
 
 export type Values = Record<string, string>;
 
@@ -60,7 +61,7 @@ export function optionsOf(given: Values, parameters: readonly {name: string}[]):
     return parameters
         .map(({name}) => name)
         .filter((name) => given[name])
-        .map((name) => `--${name.replaceAll("_", "-")} ${shellWord(given[name]!)}`)
+        .map((name) => `${optionOf(name)} ${shellWord(given[name]!)}`)
         .join(" ");
 }
 

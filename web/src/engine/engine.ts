@@ -1,6 +1,7 @@
 // The interface to the WebAssembly engine (bindings/wasm/laboratory.cpp).
 
 import type {Message} from "../texts/message";
+import {keyOf, optionOf} from "../texts/symbols";
 import {fill, workerTexts} from "../texts/worker_texts";
 
 export class UsageError extends Error {
@@ -14,9 +15,9 @@ export class UsageError extends Error {
 
 /** The parameter that an error message names first: "--mu is …", or a number of discs. */
 export function parameterOf(message: string): string | undefined {
-    return /^\d+ /.test(message)
-        ? "discs"
-        : /^.*?--([a-z-]+)/.exec(message)?.[1]?.replaceAll("-", "_");
+    if (/^\d+ /.test(message)) return "discs";
+    const option = /^.*?--([a-z-]+)/.exec(message)?.[1];
+    return option && keyOf(option);
 }
 
 export interface Parameter {
@@ -212,7 +213,7 @@ export class Engine {
             if (control)
                 throw new UsageError(
                     fill(workerTexts.control, {
-                        option: `--${name.replaceAll("_", "-")}`,
+                        option: optionOf(name),
                         code: (control[0].codePointAt(0) ?? 0)
                             .toString(16)
                             .toUpperCase()

@@ -16,7 +16,7 @@ import {
 } from "../elements/page";
 import {Chart, type ChartCurve, type ChartPoint} from "../elements/chart";
 import {Runs, seedsFrom, seedsPerPoint, type Crossings, type Estimates} from "../engine/runs";
-import {commands as commandOf} from "../texts/symbols";
+import {commands as commandOf, optionOf} from "../texts/symbols";
 import {fill, symbols, texts} from "../texts/texts";
 
 export type Quantity = "rotation" | "crossing";
@@ -302,7 +302,7 @@ export class Explorer {
             element("option", {
                 value: name,
                 textContent: this.labelOf(name),
-                title: `--${name.replaceAll("_", "-")}`,
+                title: optionOf(name),
             });
         this.x.replaceChildren(...numeric.map(option));
         this.curveOf.replaceChildren(
@@ -589,7 +589,7 @@ export class Explorer {
                   )
                 : commandOf.sweep(
                       `${optionsOf({...given, periods: String(periods + warmup), warmup: String(warmup)}, rows)} ` +
-                          `--seeds ${seedsPerPoint}`,
+                          `--replicates ${seedsPerPoint}`,
                       `study${k || ""}`,
                   );
         });

@@ -9,6 +9,7 @@ import {measuredFrom} from "./measured";
 import {button, element, localized, typedNumber} from "../elements/page";
 import type {Estimates, EvaluatedRun} from "../engine/runs";
 import {showCode} from "../dish/share";
+import {optionOf} from "../texts/symbols";
 import {fill, texts} from "../texts/texts";
 
 /** Lengths in mm, and turns of the dish per second. */
@@ -213,7 +214,7 @@ export class MyDish {
             {discs} = this.host.given();
         this.found.textContent = fill(texts.myDish.found, {
             options: Object.entries(given)
-                .map(([name, value]) => `--${name.replaceAll("_", "-")} ${value}`)
+                .map(([name, value]) => `${optionOf(name)} ${value}`)
                 .join(" "),
         });
         this.host.show(this.host.withSeed({...given, ...(discs ? {discs} : {})}));

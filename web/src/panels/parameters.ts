@@ -3,6 +3,7 @@
 import type {Parameter} from "../engine/engine";
 import type {Laboratory} from "../engine/laboratory";
 import {byId, element, localized, typedNumber} from "../elements/page";
+import {optionOf} from "../texts/symbols";
 import {texts} from "../texts/texts";
 
 /** The inputs of a parameter: a text or a choice of words, and an optional slider. */
@@ -152,7 +153,7 @@ export class Parameters {
             [symbol, index] = row.symbol.split("_");
         const title =
             `${texts.descriptions[row.name] ?? row.description}${row.unit ? ` (${row.unit})` : ""}\n` +
-            `--${row.name.replaceAll("_", "-")}`;
+            optionOf(row.name);
         const label = element(
             "label",
             {htmlFor: id, title},

@@ -29,6 +29,19 @@ export const documentIn = (page: string): string => `docs/${page}.md`;
 /** The first line of a checkpoint begins with it (src/swirl/io/checkpoint.hpp). */
 export const checkpointLine = "swirl checkpoint ";
 
+/** Parameters whose option has another name than their key (src/swirl/run/names.cpp). */
+const optionOfKey: Record<string, string> = {path: "motion", path_phase: "start_angle"};
+
+/** "--mu-disc" for the key of a parameter. */
+export const optionOf = (key: string): string =>
+    `--${(optionOfKey[key] ?? key).replaceAll("_", "-")}`;
+
+/** The key of a parameter for its option without hyphens at the start. */
+export const keyOf = (option: string): string => {
+    const name = option.replaceAll("-", "_");
+    return Object.keys(optionOfKey).find((key) => optionOfKey[key] === name) ?? name;
+};
+
 /** A message with the names of fields instead of options; within a sentence they begin with a small
  *  letter if `isEnglish`. */
 export const labelled = (
@@ -37,7 +50,7 @@ export const labelled = (
     isEnglish = true,
 ): string =>
     message.replace(/--([a-z-]+)/g, (option, name: string, at: number) => {
-        const label = labels[name.replaceAll("-", "_")],
+        const label = labels[keyOf(name)],
             begins = at === 0 || message[at - 1] === "\n";
         return !label
             ? option
