@@ -44,6 +44,24 @@ def items(command):
     return {plain(name): plain(description) for name, description in found}
 
 
+def forms(command):
+    """The form of the value of each option in a manual page: "disc|sphere"."""
+    found = re.findall(r"^\.TP\n\\fB(.+?)\\fP \\fI(.+)\\fP$", page(command), re.M)
+    return {plain(name): plain(form) for name, form in found}
+
+
+def listed_values():
+    """(command, option, values, whether there are others) for forms that list values."""
+    for command in commands():
+        for option, form in forms(f"swirl-{command}").items():
+            words = form.removesuffix(" (required)").split("|")
+            values = [
+                word for word in words if len(words) > 1 and re.fullmatch("[a-z][^A-Z]*", word)
+            ]
+            if values:
+                yield command, option, values, len(values) < len(words)
+
+
 def output_of(*words):
     return subprocess.run(words, capture_output=True, text=True)
 
@@ -110,6 +128,34 @@ class Documents(ProgramTest):
         for name, options in self.options.items():
             self.assertEqual(set(bash_completes("swirl", name, "--")), set(options), name)
 
+    def test_bash_completes_the_values_of_options(self):
+        seen = 0
+        for command, option, values, _ in listed_values():
+            seen += 1
+            with self.subTest(command=command, option=option):
+                self.assertEqual(bash_completes("swirl", command, option, ""), values)
+        self.assertGreater(seen, 50)
+        self.assertEqual(bash_completes("swirl", "run", "--body", "=", "s"), ["sphere"])
+        self.assertEqual(bash_completes("swirl", "run", "--body", "="), ["disc", "sphere"])
+        self.assertEqual(bash_completes("swirl", "run", "--measure", "dens"), ["density"])
+        self.assertEqual(bash_completes("swirl", "sweep", "--chain", "amp"), ["amplitude"])
+        self.assertEqual(bash_completes("swirl", "run", "--mu", ""), [])
+
+    def test_zsh_and_fish_have_the_values_of_options(self):
+        zsh, fish = read_text(path("_swirl")), read_text(FISH)
+        for command, option, values, has_others in listed_values():
+            with self.subTest(command=command, option=option):
+                part = re.search(rf"^ *{command}\) _arguments(.*?);;$", zsh, re.M | re.S)[1]
+                words = " ".join(values)
+                action = f"{{compadd {words}; _files}}" if has_others else f"({words})"
+                line = re.search(rf"^ *'\*?{option}\[.+\]:.*:(.*)' \\$", part, re.M)
+                self.assertEqual(line[1], action)
+                self.assertRegex(
+                    fish,
+                    f"_from {command}' -l {option[2:]} {'-r' if has_others else '-x'} "
+                    f"-a '{re.escape(words)}' ",
+                )
+
     def test_zsh_has_every_option(self):
         text = read_text(path("_swirl"))
         for name, options in self.options.items():
@@ -136,6 +182,7 @@ class Documents(ProgramTest):
     def test_fish_completes_commands_and_options(self):
         self.assertEqual(fish_completes("swirl cro"), ["crossing"])
         self.assertEqual(fish_completes("swirl run --dis"), ["--discs"])
+        self.assertEqual(fish_completes("swirl run --body "), ["disc", "sphere"])
 
 
 if __name__ == "__main__":

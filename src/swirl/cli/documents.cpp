@@ -12,6 +12,7 @@
 #include <deque>
 #include <exception>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -180,6 +181,25 @@ std::string option_words(const Subcommand& subcommand) {
     return fmt::format("{}", fmt::join(names, " "));
 }
 
+/// True if a value that is not in the list may be given, such as a number or a file.
+bool takes_other_values(const Option& option) {
+    return option.value_form != one_of(values_of(option));
+}
+
+/// Lines of bash: the values of the last word, if it is an option with known values.
+std::string bash_values(const DescribedCommands& commands) {
+    std::map<std::pair<std::string, std::string>, std::vector<std::string>> words_of;
+    for (const Described& command : commands)
+        for (const Option& option : command.subcommand.options())
+            if (const auto values = values_of(option); !values.empty())
+                words_of[{option.name, fmt::format("{}", fmt::join(values, " "))}].push_back(
+                    fmt::format("{},{}", command.row->name, option.name));
+    std::string cases;
+    for (const auto& [option, words] : words_of)
+        cases += fmt::format("        {}) words=\"{}\" ;;\n", fmt::join(words, "|"), option.second);
+    return cases;
+}
+
 std::string bash_completion(const DescribedCommands& commands) {
     std::vector<std::string_view> names;
     std::string cases;
@@ -190,8 +210,15 @@ std::string bash_completion(const DescribedCommands& commands) {
     }
     return fmt::format(R"(_swirl() {{
     local commands="{}"
-    local word=${{COMP_WORDS[COMP_CWORD]}} words=
-    case $COMP_CWORD,${{COMP_WORDS[1]}},$word in
+    local word=${{COMP_WORDS[COMP_CWORD]}} last=${{COMP_WORDS[COMP_CWORD-1]}} words=
+    if [[ $word == = ]]; then
+        word=
+    elif [[ $last == = ]]; then
+        last=${{COMP_WORDS[COMP_CWORD-2]}}
+    fi
+    case ${{COMP_WORDS[1]}},$last in
+{}    esac
+    [[ -n $words ]] || case $COMP_CWORD,${{COMP_WORDS[1]}},$word in
         1,*) words="$commands help --help --version" ;;
         2,help,*) words=$commands ;;
 {}    esac
@@ -199,7 +226,7 @@ std::string bash_completion(const DescribedCommands& commands) {
 }}
 complete -o default -F _swirl swirl
 )",
-                       fmt::join(names, " "), cases);
+                       fmt::join(names, " "), bash_values(commands), cases);
 }
 
 /// Text within single quotes of zsh, in which a colon or a bracket ends a description.
@@ -211,9 +238,13 @@ std::string zsh_text(std::string_view text) {
 std::string zsh_option(const Option& option) {
     const bool is_repeated = is_list(option) || option.joined_by != '\0';
     const std::string form = option.value_form.empty() ? "value" : option.value_form;
+    const std::string values = fmt::format("{}", fmt::join(values_of(option), " "));
+    const std::string action = values.empty()               ? "_files"
+                               : takes_other_values(option) ? "{compadd " + values + "; _files}"
+                                                            : "(" + values + ")";
     return fmt::format("            '{}{}[{}]{}' \\\n", is_repeated ? "*" : "", option.name,
                        zsh_text(option.description),
-                       is_flag(option) ? "" : fmt::format(":{}:_files", zsh_text(form)));
+                       is_flag(option) ? "" : fmt::format(":{}:{}", zsh_text(form), action));
 }
 
 std::string zsh_completion(const DescribedCommands& commands) {
@@ -271,6 +302,15 @@ std::string fish_option(std::string_view command, std::string_view name, std::st
                        fish_text(description));
 }
 
+/// What follows the name of an option: nothing for a flag, or its values, with files if there are
+/// other ones.
+std::string fish_values(const Option& option) {
+    if (is_flag(option)) return "";
+    const std::string values = fmt::format("{}", fmt::join(values_of(option), " "));
+    if (values.empty()) return " -r";
+    return fmt::format(" {} -a '{}'", takes_other_values(option) ? "-r" : "-x", values);
+}
+
 std::string fish_completion(const DescribedCommands& commands) {
     std::string text = "complete -c swirl -n __fish_use_subcommand -f -a help\n";
     for (const Described& command : commands) {
@@ -281,8 +321,7 @@ std::string fish_completion(const DescribedCommands& commands) {
             text += fish_option(name, option.name, "", option.description);
         for (const Option& option : command.subcommand.options())
             if (is_named(option))
-                text += fish_option(name, option.name, is_flag(option) ? "" : " -r",
-                                    option.description);
+                text += fish_option(name, option.name, fish_values(option), option.description);
     }
     return text;
 }
