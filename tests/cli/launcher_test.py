@@ -19,7 +19,7 @@ add_executable(swirl ${sources})
 """
 CMAKE = (
     WITHOUT_COMMANDS
-    + """foreach(name run movie image synthetic-video crossing sweep map track paper)
+    + """foreach(name run movie image synthetic-video crossing sweep map track experiment paper)
   add_executable(swirl-${name} ${sources})
 endforeach()
 """
@@ -295,6 +295,13 @@ class Launcher(InFolder):
         self.write("CMakeLists.txt", CMAKE + "add_custom_target(swirl_python)\n")
         self.assertEqual(self.call("paper", "--movies").returncode, 0)
         self.assertEqual(self.built(), ["movie", "paper"])
+
+    def test_videos_of_an_experiment_need_a_second_command(self):
+        done = self.call("experiment", "tracks.csv", "--quiet")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.built(), ["experiment"])
+        self.assertEqual(self.call("experiment", "tracks.csv", "N36.mp4").returncode, 0)
+        self.assertEqual(self.built(), ["experiment", "track"])
 
     def test_help_builds_no_command_but_the_command_help_does(self):
         self.call("run")

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <string_view>
+#include <system_error>
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
@@ -11,18 +13,19 @@
 #include "swirl/cli/progress_line.hpp"
 #include "swirl/cli/run_options.hpp"
 #include "swirl/cli/stop_signal.hpp"
+#include "swirl/cli/track_options.hpp"
 #include "swirl/cli/tracks_input.hpp"
 #include "swirl/io/atomic_file.hpp"
+#include "swirl/io/child_process.hpp"
 #include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/parse_json.hpp"
+#include "swirl/run/programs.hpp"
 #include "swirl/run/version.hpp"
-#include "track/cli/tracked_video.hpp"
+#include "track/cli/video_options.hpp"
 #include "track/experiment/experiment.hpp"
-#include "track/video/spin.hpp"
-#include "track/video/tracking.hpp"
 
 namespace swirl {
 namespace {
@@ -47,8 +50,6 @@ std::string name_of_video(const std::string& video) {
     return path.stem().string();
 }
 
-using namespace tracking;
-
 /// Identifies the video and the options that its tracks were made with.
 nlohmann::ordered_json tracking_key(const ExperimentCall& call, const std::string& video) {
     std::error_code ignored;
@@ -60,6 +61,30 @@ nlohmann::ordered_json tracking_key(const ExperimentCall& call, const std::strin
             {"frames", call.frames ? nlohmann::ordered_json(*call.frames) : nullptr},
             {"spin", call.spin},
             {"version", version()}};
+}
+
+/// Calls `swirl track`, so that this program needs no OpenCV. Throws Failure with its error.
+void track(const ExperimentCall& call, const std::string& video, const fs::path& table,
+           const fs::path& image) {
+    std::vector<std::string> words{main_program(), "track", "--out",       table,
+                                   "--image",      image,   "--overwrite", "--quiet"};
+    if (call.fps) words.insert(words.end(), {"--fps", fmt::format("{}", *call.fps)});
+    if (call.frames) words.insert(words.end(), {"--max-frames", std::to_string(*call.frames)});
+    if (call.spin) words.emplace_back("--spin");
+    words.insert(words.end(), {"--", video});
+    const ProgramOutput done = run_program(words, &stop_signal());
+    if (stop_signal().load()) throw Interrupted("stopped before the end; finished parts are kept.");
+    if (done.error != 0)
+        throw Failure(fmt::format("'{}' cannot be started: {}.", words.front(),
+                                  std::generic_category().message(done.error)));
+    if (done.exit_code == 0) return;
+    // Warnings may precede the error; they are in the calibration, too.
+    constexpr std::string_view mark = "error: ";
+    const std::size_t at = done.text.find(mark);
+    std::string reason = at == done.text.npos ? "`swirl track` ended without a message."
+                                              : done.text.substr(at + mark.size());
+    while (reason.ends_with('\n')) reason.pop_back();
+    throw Failure(reason);
 }
 
 /// Returns the table of tracks; reuses one from an earlier call with the same video and options.
@@ -77,16 +102,12 @@ fs::path tracks_of(const ExperimentCall& call, const std::string& video,
                           file_exists(camera_file(table)) && read_whole_file(about) == key;
     if (reusable) return table;
     ProgressLine line(container.name, call.quiet);
-    const TrackingSettings settings = tracking_settings(video, call.fps, call.frames, line);
-    const TrackedVideo found = track_video(settings);
-    std::optional<VideoSpins> spins;
-    if (call.spin) spins = measure_spins(found, settings);
-    line.clear();
+    line.show(0.0, "tracking");
     // Until the key is written again, the other files do not belong to any video.
     std::error_code absent;
     fs::remove(about, absent);
-    write_tracks(found, {video, {}, {}}, table, spins ? &*spins : nullptr);
-    draw_found(found, video, name_of_video(video), image);
+    track(call, video, table, image);
+    line.clear();
     write_output(about, key);
     return table;
 }

@@ -24,6 +24,7 @@
 #include "swirl/run/shell_word.hpp"
 #include "track/cli/recorded_path.hpp"
 #include "track/cli/tracked_video.hpp"
+#include "track/cli/video_options.hpp"
 #include "track/video/spin.hpp"
 #include "track/video/tracking.hpp"
 
@@ -32,7 +33,7 @@ namespace {
 
 struct TrackCall {
     VideoSource source;
-    std::string out, path, json, overlay, report;
+    std::string out, path, json, overlay, report, image;
     std::optional<double> fps;
     std::optional<std::int64_t> discs, frames;
     std::optional<std::int64_t> from, to;
@@ -233,8 +234,8 @@ void make_overlay(const TrackedVideo& video, const TrackCall& call) {
 void reject_options_of_tracks(const TrackCall& call) {
     for (const auto& [name, given] :
          {std::pair("overlay", !call.overlay.empty()), std::pair("report", !call.report.empty()),
-          std::pair("json", !call.json.empty()), std::pair("spin", call.spin),
-          std::pair("accept", !call.accept.empty())})
+          std::pair("image", !call.image.empty()), std::pair("json", !call.json.empty()),
+          std::pair("spin", call.spin), std::pair("accept", !call.accept.empty())})
         if (given)
             throw UsageError(
                 fmt::format("--{} is given, but --out is not.\nhint: give --out FILE.csv.", name));
@@ -269,9 +270,13 @@ void validate(const TrackCall& call) {
                             call.overlay));
         reject_unwritable(call.overlay);
     }
+    if (!call.image.empty() && !call.image.ends_with(".png"))
+        throw UsageError(
+            fmt::format("--image is '{}', but its name must end with .png.", call.image));
+    if (!call.image.empty()) reject_unwritable(call.image);
     if (!call.json.empty() && call.json != "-") reject_unwritable(call.json);
-    std::vector<std::filesystem::path> all{call.source.video, call.out, call.path, call.overlay,
-                                           call.json};
+    std::vector<std::filesystem::path> all{call.source.video, call.out,   call.path,
+                                           call.overlay,      call.image, call.json};
     if (!call.out.empty()) all.push_back(camera_file(call.out));
     if (!call.report.empty())
         for (const char* file : video_report_files)
@@ -345,6 +350,7 @@ void track(TrackCall call) {
     nlohmann::ordered_json json =
         write_tracks(video, call.source, call.out, spins ? &*spins : nullptr);
     if (!call.overlay.empty()) make_overlay(video, call);
+    if (!call.image.empty()) draw_found(video, call.source.video, call.image);
     std::filesystem::path report;
     if (!call.report.empty()) report = write_video_report(video, call.source, json, call.report);
     for (const std::string& text : video.warnings) fmt::print(stderr, "warning: {}\n", text);
@@ -379,6 +385,7 @@ void add_track_command(Subcommand& subcommand) {
     add("--correct-frames", call->accept, "duplicates|missing|duplicates,missing",
         "Faults of frames to correct");
     add("--overlay", call->overlay, "FILE", "Movie of the video with the discs drawn over it");
+    add("--image", call->image, "FILE.png", "First frame with the discs drawn over it");
     add("--report", call->report, "DIR", "Folder for a report on the tracking, report.html");
     add("--json", call->json, "FILE|-", "File for all results, or - for standard output");
     subcommand.add({

@@ -26,14 +26,6 @@
 
 namespace swirl {
 
-void check_video_options(const std::optional<double>& fps,
-                         const std::optional<std::int64_t>& frames) {
-    if (fps && !(*fps > 0.0))
-        throw UsageError(fmt::format("--fps is {}, but it must be above 0.", *fps));
-    if (frames && !(*frames > 0))
-        throw UsageError(fmt::format("--max-frames is {}, but it must be at least 1.", *frames));
-}
-
 namespace {
 
 using namespace tracking;
@@ -329,10 +321,14 @@ TrackingSettings tracking_settings(const std::string& video, const std::optional
     return settings;
 }
 
-void draw_found(const TrackedVideo& video, const std::string& file, const std::string& caption,
+void draw_found(const TrackedVideo& video, const std::string& file,
                 const std::filesystem::path& image) {
+    // For numbered images ('frames/%05d.png'), the name of their folder.
+    const bool is_sequence = file.find('%') != file.npos && fs::path(file).has_parent_path();
+    const fs::path shown = is_sequence ? fs::path(file).parent_path() : fs::path(file);
     StillConfig config;
-    config.sources = {tracked(video.tracks, video.scale(), escaped(caption), file)};
+    config.sources = {
+        tracked(video.tracks, video.scale(), escaped(shown.filename().string()), file)};
     config.appearance.size = {720, 720};
     config.appearance.coloring = Coloring::id;
     config.at = config.sources.front().from.value_or(0.0);
@@ -351,8 +347,7 @@ std::filesystem::path write_video_report(const TrackedVideo& video, const VideoS
     about["command"] = command_line();
     about["lens"]["camera"] = camera_text(video);
     write_output(folder / "found.json", about.dump(2) + "\n");
-    draw_found(video, source.video, std::filesystem::path(source.video).filename().string(),
-               folder / "video.png");
+    draw_found(video, source.video, folder / "video.png");
     run_python_script("track", {folder.string()}, &stop_signal());
     return folder / "report.html";
 }

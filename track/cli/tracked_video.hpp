@@ -24,10 +24,6 @@ struct VideoSource {
     std::optional<double> container_diameter, disc_diameter;  // millimetres
 };
 
-/// Throws UsageError unless --fps and --max-frames are above 0.
-void check_video_options(const std::optional<double>& fps,
-                         const std::optional<std::int64_t>& frames);
-
 /// Settings with a stop signal; `line` shows the progress and must outlive them.
 tracking::TrackingSettings tracking_settings(const std::string& video,
                                              const std::optional<double>& fps,
@@ -36,7 +32,7 @@ tracking::TrackingSettings tracking_settings(const std::string& video,
 
 /// Writes the first frame of the video with the discs drawn over it to `image`.
 void draw_found(const tracking::TrackedVideo& tracked, const std::string& video,
-                const std::string& caption, const std::filesystem::path& image);
+                const std::filesystem::path& image);
 
 /// Files of the report of one video.
 inline constexpr const char* video_report_files[] = {

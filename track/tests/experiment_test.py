@@ -4,9 +4,11 @@ import csv
 import json
 import os
 import re
+import shutil
+import subprocess
 import unittest
 
-from program import InFolder, swirl
+from program import SOURCE, SWIRL, InFolder, swirl
 
 # Small, short videos that are tracked quickly.
 SMALL = [
@@ -170,6 +172,32 @@ class Experiment(InFolder):
         self.assertTrue(os.path.exists(self.path("tables/figure_4c.png")))
         with open(self.path("tables/report.html"), encoding="utf-8") as file:
             self.assertTrue(re.search("none could not be used", file.read()))
+
+    def test_tracks_need_no_camera_support(self):
+        """A program without `swirl track` compares tracks, and says what a video needs."""
+        video = self.videos()[1]
+        done = swirl("track", video, "--out", self.path("N22.csv"), "--quiet")
+        if "no camera support" in done.stderr:
+            self.skipTest("this build has no camera support")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        os.mkdir(self.path("bin"))
+        for name in ("swirl", "swirl-experiment"):
+            shutil.copy(os.path.join(os.path.dirname(SWIRL), name), self.path("bin"))
+
+        def call(*words):
+            return subprocess.run(
+                [self.path("bin/swirl"), "experiment", *map(str, words)],
+                capture_output=True,
+                text=True,
+                env=dict(os.environ, SWIRL_FIGURES=os.path.join(SOURCE, "paper")),
+            )
+
+        done = call(self.path("N22.csv"), "--no-simulation", "--out", self.path("tables"))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(rows(self.path("tables"), "videos.csv")[0]["discs"], "22")
+        done = call(video, "--no-simulation", "--out", self.path("videos"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("the program of `swirl track`, swirl-track, is not installed", done.stderr)
 
     def test_invalid_options_are_rejected(self):
         for words, arguments in (

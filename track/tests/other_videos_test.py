@@ -131,7 +131,9 @@ class OtherVideos(InFolder):
             self.assertLess(abs(camera["path"]["omega"] / omega - 1.0), 1e-3)  # 3 % without
 
     def test_parts_of_a_video(self):
-        video, done = self.call("--first-frame", 20, "--last-frame", 79, "--ignore-frames", "30,40-41")
+        video, done = self.call(
+            "--first-frame", 20, "--last-frame", 79, "--ignore-frames", "30,40-41"
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         with open(self.path("tracks.csv"), encoding="utf-8") as file:
             rows = list(csv.DictReader(file))

@@ -38,7 +38,7 @@ inline constexpr CommandRow command_list[] = {
     {"map", "Simulate", "study", "figures", "Map a quantity over one or two parameters"},
     {"track", "Your video", "drawing camera", "movies", "Track the discs in a video of a swirled container"},
     {"measure", "Your video", "", "", "Apply the measurements to recorded frames or tracks"},
-    {"experiment", "Your video", "drawing camera experiment", "movies figures", "Compare videos with simulations in the paper's figures"},
+    {"experiment", "Your video", "experiment", "movies figures", "Compare videos with simulations in the paper's figures"},
     {"paper", "The paper", "", "figures python paper", "Make the paper's figures from simulation"},
     {"export", "Files", "", "", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas"},
     {"verify", "Files", "", "", "Repeat the run of a result or recording and compare bitwise"},
