@@ -3,13 +3,13 @@ the changes of direction."""
 
 import numpy as np
 
-from paper import style, tables
+from paper import look, style, tables
 from paper.curves import CERTAIN
 
 PACKING = r"packing fraction $\varphi = N r^2/R^2$"
 CHANGES = (
-    ("counterrotation", "v", style.BLUE, "to counterrotation"),
-    ("rotation", "^", style.RED, "back to rotation"),
+    ("counterrotation", "v", look.AGAINST, "to counterrotation"),
+    ("rotation", "^", look.WITH, "back to rotation"),
 )
 DOT = 0.3  # in Ω: the rate of the largest dots
 
@@ -52,7 +52,7 @@ def dots(axes, rows, parameter, color, words):
 
 def sign_map(axes, rows, changes, parameter):
     """The sign of the rotation at every point, and the changes of direction with their errors."""
-    for sign, color, words in ((1, style.RED, "rotates"), (-1, style.BLUE, "counterrotates")):
+    for sign, color, words in ((1, look.WITH, "rotates"), (-1, look.AGAINST, "counterrotates")):
         here = [
             row
             for row in rows

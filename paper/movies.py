@@ -44,7 +44,7 @@ SYSTEMS = (
         ),
         (
             "48 discs drift against the swirl: the arc grows to the right.",
-            "Most discs are pinned (orange), in layers against the wall that carries them "
+            "Most discs are pinned (green), in layers against the wall that carries them "
             "clockwise.",
         ),
     ),

@@ -94,10 +94,10 @@ def color_scale(values, of, level):
     if of in tables.RATES and level == 0.0 and reach > 0.04:
         # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
         return {
-            "cmap": "PuOr_r",
+            "cmap": style.directions(),
             "norm": plt.matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-reach, vmax=reach),
         }
-    return {"cmap": "PuOr_r", "vmin": level - reach, "vmax": level + reach}
+    return {"cmap": style.directions(), "vmin": level - reach, "vmax": level + reach}
 
 
 def triangles(x, y):

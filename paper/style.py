@@ -10,7 +10,7 @@ import sys
 
 import numpy as np
 
-from paper import atomic_file, tables
+from paper import atomic_file, look, tables
 from paper.paper_parameters import AMPLITUDE
 from paper.tables import column, distinct, select  # noqa: F401
 
@@ -106,6 +106,12 @@ def figure(width=COLUMN, height=None, **subplots):
     plt.rcParams.update(SETTINGS)
     height = height or 0.72 * width
     return plt.subplots(figsize=(width, height), constrained_layout=True, **subplots)
+
+
+def directions():
+    """The colour map of signed rates: against the swirl, none, with it."""
+    ends = [look.AGAINST, look.NEUTRAL, look.WITH]
+    return matplotlib.colors.LinearSegmentedColormap.from_list("directions", ends)
 
 
 def not_steady(rows):

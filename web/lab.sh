@@ -1,6 +1,6 @@
 #!/bin/sh
-# `swirl lab`: builds the browser page if it is out of date, then serves it on this machine or writes it
-# as one self-contained file. Options of a run set the parameters with which the page starts.
+# `swirl lab`: builds both browser pages if they are out of date, then serves them on this machine or writes them:
+# the Laboratory as one self-contained file, or both into a folder. Options of a run set the parameters with which the page starts.
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 me=swirl
@@ -14,7 +14,7 @@ Usage: swirl lab [OPTIONS] [OPTIONS OF swirl run]
 Options:
   -h,--help                       Print this help message and exit
   --port N                        Port of the local server [8720]
-  --out FILE.html                 Write a self-contained file instead of serving
+  --out FILE.html|FOLDER/         Write the Laboratory, or both pages, instead of serving
   --no-browser                    Do not open a browser
   --quiet                         Print no messages
 
@@ -25,6 +25,7 @@ Examples:
   swirl lab --discs 40 --mu 0.3
   swirl lab --port 9000 --no-browser
   swirl lab --out laboratory.html
+  swirl lab --out web_site/
 TEXT
 }
 
@@ -86,15 +87,19 @@ esac
     usage_error "--port is '$port', but it must be a whole number from 1 to 65535."
 
 # A rename would replace a device by a file, and would move the file into a folder.
-if [ -n "$out" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
+case $out in
+    */) folder=$out ;;
+    *) [ -d "$out" ] && folder=$out || folder= ;;
+esac
+if [ -n "$out" ] && [ -z "$folder" ] && [ -e "$out" ] && ! [ -f "$out" ]; then
     usage_error "--out is '$out', which exists and is not a file." "choose another name."
 fi
 
-page=$home/build/lab/index.html
+pages=$home/build/lab
 stamp=$home/build/.built-page
 # The date of the stamp is that of the beginning of the last complete build (cmake/launcher.sh).
 is_page_built() {
-    [ -e "$page" ] && [ -e "$stamp" ] || return 1
+    [ -e "$pages/index.html" ] && [ -e "$pages/laboratory.html" ] && [ -e "$stamp" ] || return 1
     newer=$(cd "$home" && find src/swirl/math src/swirl/physics src/swirl/engine src/swirl/statistics \
         src/swirl/measure src/swirl/io src/swirl/run bindings/wasm web -path web/node_modules -prune -o \
         -path web/generated -prune -o -newer "$stamp" ! -mmin -0 -type f -print 2>/dev/null | head -n 1)
@@ -120,6 +125,7 @@ build_page() {
             cmake --build "$home/build/wasm" &&
             mkdir -p "$home/web/generated" &&
             zopfli -c "$home/build/wasm/swirl.wasm" >"$home/web/generated/swirl.wasm.gz" &&
+            zopfli -c "$home/build/wasm/dish.wasm" >"$home/web/generated/dish.wasm.gz" &&
             (cd "$home/web" && npm install --ignore-scripts --no-audit --no-fund --no-save && npm run build)
     } >"$log" 2>&1; then
         tail -n 30 "$log" >&2
@@ -141,22 +147,29 @@ if [ -n "$given" ]; then
     IFS=$oldifs
 fi
 
+# Writes a built page with the parameters in it. A page that is alone has no link to the other one.
+# write_page NAME FILE
 write_page() {
-    if [ -z "$query" ]; then
-        cp "$page" "$temporary"
-    else
-        node "$home/web/start.mjs" --page "$page" "$query" >"$temporary"
-    fi
+    temporary=$(mktemp "$2.partial.XXXXXX" 2>/dev/null) || give_up "'$2' cannot be written."
+    chmod "$(printf %o $((0666 & ~0$(umask))))" "$temporary"
+    {
+        if [ -z "$query" ]; then cat "$pages/$1"; else node "$home/web/start.mjs" --page "$pages/$1" "$query"; fi |
+            if [ -n "$folder" ]; then cat; else sed 's|<a id="to-dish".*</a>||'; fi >"$temporary"
+    } 2>/dev/null && sync "$temporary" && rename "$temporary" "$2" || give_up "'$2' cannot be written."
+    [ -n "$quiet" ] || say "wrote $2"
 }
 if [ -n "$out" ]; then
-    temporary=$(mktemp "$out.partial.XXXXXX" 2>/dev/null) || give_up "'$out' cannot be written."
-    trap 'rm -f "$temporary"' EXIT
+    temporary=
+    trap '[ -z "$temporary" ] || rm -f "$temporary"' EXIT
     trap 'exit 130' INT
     trap 'exit 143' HUP TERM
-    chmod "$(printf %o $((0666 & ~0$(umask))))" "$temporary"
-    write_page 2>/dev/null && sync "$temporary" && rename "$temporary" "$out" ||
-        give_up "'$out' cannot be written."
-    [ -n "$quiet" ] || say "wrote $out"
+    if [ -z "$folder" ]; then
+        write_page laboratory.html "$out"
+    else
+        mkdir -p "$folder" 2>/dev/null || give_up "'$folder' cannot be written."
+        write_page index.html "${folder%/}/index.html"
+        write_page laboratory.html "${folder%/}/laboratory.html"
+    fi
     exit 0
 fi
-exec node "$home/web/serve.mjs" "$page" "$port" "$browser" "$query"
+exec node "$home/web/serve.mjs" "$pages" "$port" "$browser" "$query"

@@ -1,11 +1,17 @@
-// Serves one page on the loopback interface: node serve.mjs PAGE PORT yes|no QUERY. The third
-// argument says whether to open a browser, the last one is the query of the address that is shown;
-// it may be empty.
+// Serves both pages of a folder on the loopback interface: node serve.mjs FOLDER PORT yes|no QUERY.
+// The third argument says whether to open a browser, the last one is the query of the address that
+// is shown; it may be empty.
 import {createServer} from "node:http";
 import {readFile} from "node:fs/promises";
+import {join} from "node:path";
 import {spawn} from "node:child_process";
 
-const [page, port, browser, query = ""] = process.argv.slice(2);
+const [folder, port, browser, query = ""] = process.argv.slice(2);
+const pages = new Map([
+    ["/", "index.html"],
+    ["/index.html", "index.html"],
+    ["/laboratory.html", "laboratory.html"],
+]);
 // Only these names are accepted as Host: a foreign page whose name resolves to this machine (DNS
 // rebinding) sends its own name.
 const hosts = ["localhost", "127.0.0.1", "[::1]"].flatMap((name) =>
@@ -25,10 +31,10 @@ async function answerTo({method, url, headers}) {
     if (method !== "GET" && method !== "HEAD")
         return plain(405, "This server answers GET and HEAD only.\n", {allow: "GET, HEAD"});
     if (!/^\/(?![/\\])/.test(url)) return plain(400, "The request names no path of this server.\n");
-    if (!["/", "/index.html"].includes(url.split("?", 1)[0]))
-        return plain(404, "The only page of this server is /\n");
+    const page = pages.get(url.split("?", 1)[0]);
+    if (!page) return plain(404, "The pages of this server are / and /laboratory.html\n");
     try {
-        const body = await readFile(page);
+        const body = await readFile(join(folder, page));
         return {status: 200, headers: {"content-type": "text/html; charset=utf-8"}, body};
     } catch {
         return plain(500, "The page cannot be read. Restart swirl lab.\n");

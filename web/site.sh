@@ -106,16 +106,19 @@ if ! "$(system_python)" -B "$home/web/site.py" "$home" "$source" "$temporary/gal
     tail -n 20 "$log" >&2
     give_up "the site could not be built (see above)."
 fi
-"$home/web/lab.sh" --quiet --out "$site/lab.html"
-# The page links to the documentation next to it. Search engines and link previews need its public address.
-head='<meta name="swirl-documentation" content="docs/">'
-if [ -n "$address" ]; then
-    head="$head<link rel=\"canonical\" href=\"${address}lab.html\"><meta property=\"og:url\" content=\"${address}lab.html\">"
-    head="$head<meta property=\"og:image\" content=\"${address}preview.png\"><meta name=\"twitter:card\" content=\"summary_large_image\">"
-    cp "$home/docs/images/lab_preview.png" "$site/preview.png"
-fi
-sed "s|<meta charset=\"utf-8\">|&$head|" "$site/lab.html" >"$temporary/lab.html"
-mv "$temporary/lab.html" "$site/lab.html"
+"$home/web/lab.sh" --quiet --out "$temporary/pages/"
+# The pages link to the documentation next to them. Search engines and link previews need their public address.
+# A link to the first page from the time when there was one page only is lab.html.
+[ -z "$address" ] || cp "$home/docs/images/lab_preview.png" "$site/preview.png"
+for page in index:lab laboratory:laboratory; do
+    name=${page#*:}.html
+    head='<meta name="swirl-documentation" content="docs/">'
+    if [ -n "$address" ]; then
+        head="$head<link rel=\"canonical\" href=\"$address$name\"><meta property=\"og:url\" content=\"$address$name\">"
+        head="$head<meta property=\"og:image\" content=\"${address}preview.png\"><meta name=\"twitter:card\" content=\"summary_large_image\">"
+    fi
+    sed "s|<meta charset=\"utf-8\">|&$head|; s|href=\"index.html\"|href=\"lab.html\"|" "$temporary/pages/${page%:*}.html" >"$site/$name"
+done
 # Sphinx copies the images of the pages, but no movies.
 for movie in "$temporary"/gallery/*.mp4; do
     [ ! -e "$movie" ] || { mkdir -p "$site/gallery" && cp "$movie" "$site/gallery"; }

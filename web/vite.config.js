@@ -1,11 +1,20 @@
-// Builds one self-contained file: it includes the script, styles, worker and engine.
+// Builds one self-contained file, which includes the script, styles, worker and engine: the first
+// page, or with `--mode laboratory` the second one.
 import {defineConfig} from "vite";
 import {viteSingleFile} from "vite-plugin-singlefile";
 import {createHash} from "node:crypto";
 import {readFileSync} from "node:fs";
+import look from "./src/drawing/look.json" with {type: "json"};
 import english from "./src/texts/texts.en.json" with {type: "json"};
 
-const pageTexts = english.page;
+/** A text of the Laboratory, or with "dish." one of the first page. */
+const textOf = (name) =>
+    name.startsWith("dish.") ? english.dish[name.slice("dish.".length)] : english.page[name];
+const signals = ({with: w, against}) => `--with:${w};--against:${against}`;
+/** The colours of the directions for style.css. */
+const colors =
+    `<style>:root{${signals(look.light)}}` +
+    `@media (prefers-color-scheme: dark){:root{${signals(look.dark)}}}</style>`;
 
 /** Replaces {{name}} in the page by the English text of this name; translatePage() of texts.ts
     replaces it by another language. */
@@ -14,18 +23,23 @@ const texts = {
     transformIndexHtml: {
         order: "pre",
         handler: (html) =>
-            html.replace(/\{\{(\w+)\}\}/g, (_, name) => {
-                if (!(name in pageTexts))
-                    throw new Error(
-                        `index.html has {{${name}}}, but src/texts/texts.en.json has no such text.`,
-                    );
-                return pageTexts[name]
-                    .replace(/&/g, "&amp;")
-                    .replace(/</g, "&lt;")
-                    .replace(/"/g, "&quot;");
-            }),
+            html
+                .replace("</head>", `${colors}\n</head>`)
+                .replace(/\{\{([\w.]+)\}\}/g, (_, name) => {
+                    if (textOf(name) === undefined)
+                        throw new Error(
+                            `the page has {{${name}}}, but src/texts/texts.en.json has no such text.`,
+                        );
+                    return textOf(name)
+                        .replace(/&/g, "&amp;")
+                        .replace(/</g, "&lt;")
+                        .replace(/"/g, "&quot;");
+                }),
     },
 };
+
+/** The page among the files of a build. */
+const pageOf = (bundle) => Object.values(bundle).find(({fileName}) => fileName.endsWith(".html"));
 
 /** Moves the script to the end, so that a slow connection shows the first picture before the engine
     has arrived. */
@@ -33,7 +47,7 @@ const late = {
     name: "late",
     enforce: "post",
     generateBundle: (_, bundle) => {
-        const page = bundle["index.html"],
+        const page = pageOf(bundle),
             [script] = /<script type="module"[^]*?<\/script>/.exec(page.source);
         page.source = page.source
             .replace(script, "")
@@ -48,7 +62,7 @@ const policy = {
     name: "policy",
     enforce: "post",
     generateBundle: (_, bundle) => {
-        const page = bundle["index.html"];
+        const page = pageOf(bundle);
         const hashes = [...page.source.matchAll(/<script[^>]*>([^]*?)<\/script>/g)].map(
             ([, script]) => `'sha256-${createHash("sha256").update(script).digest("base64")}'`,
         );
@@ -79,20 +93,22 @@ const notices = {
     name: "notices",
     enforce: "post",
     generateBundle: (_, bundle) => {
-        bundle["index.html"].source +=
-            `<!--\n${read("notices.txt")}\n${read("../LICENSES/OFL-1.1.txt")}-->\n`;
+        const page = pageOf(bundle),
+            font = page.source.includes("data:font") ? read("../LICENSES/OFL-1.1.txt") : "";
+        page.source += `<!--\n${read("notices.txt")}\n${font}-->\n`;
     },
 };
 
-export default defineConfig({
+export default defineConfig(({mode}) => ({
     base: "./",
     plugins: [texts, viteSingleFile(), late, policy, notices],
     assetsInclude: ["**/*.wasm.gz"],
     worker: {format: "iife"},
     build: {
         outDir: "../build/lab",
-        emptyOutDir: true,
+        emptyOutDir: mode !== "laboratory",
+        rollupOptions: {input: mode === "laboratory" ? "laboratory.html" : "index.html"},
         assetsInlineLimit: 100_000_000,
         target: "es2022",
     },
-});
+}));

@@ -39,6 +39,12 @@
 #include "swirl/statistics/zero_crossing.hpp"
 
 #define EXPORTED(name) extern "C" __attribute__((export_name(#name)))
+// The first page shows a dish and needs none of these functions, so its module is smaller.
+#ifdef SWIRL_ONLY_THE_DISH
+#define LABORATORY(name) [[maybe_unused]] static
+#else
+#define LABORATORY(name) EXPORTED(name)
+#endif
 
 extern "C" {
 [[noreturn]] __attribute__((import_module("page"), import_name("reject"))) void page_reject(
@@ -137,8 +143,20 @@ RunConfig with_path_of(const RunConfig& a, RunConfig b) {
 /// How the discs can continue with other values.
 enum class Change { needs_new_simulation, at_once, at_the_start_of_a_period };
 
-/// Parameters that may change (Changes), and the number of discs of one size, do so at once; the
-/// path at the start of a period. Any other difference needs a new simulation.
+/// All discs can spin, or none can.
+bool can_spin_alike(const RunConfig& c) { return c.cannot_spin == 0.0 || c.cannot_spin == 1.0; }
+
+/// Stops the spins of all discs, or frees them.
+void let_spin(InitialState& state, bool can_spin) {
+    for (Disc& disc : state.discs) {
+        disc.can_spin = can_spin ? 1.0 : 0.0;
+        if (!can_spin) disc.spin = 0.0;
+    }
+}
+
+/// Parameters that may change (Changes), the spins of all discs, and the number of discs of one
+/// size, do so at once; the path at the start of a period. Any other difference needs a new
+/// simulation.
 Change change_between(const RunConfig& a, const RunConfig& b) {
     constexpr std::int64_t most = 400;  // more discs are not added one by one
     RunConfig like = with_path_of(a, b);
@@ -146,7 +164,8 @@ Change change_between(const RunConfig& a, const RunConfig& b) {
         if (p.changes != Changes::new_run && p.number()) like.*p.number() = a.*p.number();
     like.warmup = a.warmup;
     const std::int64_t discs = b.discs;
-    const bool are_equal = !has_unequal_sizes(a) && (a.cannot_spin == 0.0 || a.cannot_spin == 1.0);
+    const bool are_equal = !has_unequal_sizes(a) && can_spin_alike(a);
+    if (can_spin_alike(a) && can_spin_alike(b)) like.cannot_spin = a.cannot_spin;
     if (are_equal && a.discs > 0 && discs > 0 && a.discs <= most && discs <= most)
         like.discs = a.discs;
     if (texts_of(a) != texts_of(like)) return Change::needs_new_simulation;
@@ -303,10 +322,10 @@ EXPORTED(keeps_discs) std::uint32_t keeps_discs() {
         change_between(simulated->config(), parse_request(buffer).config));
 }
 
-/// Continues with the same discs from `time`, with other friction coefficients or restitutions, or
-/// another number of discs. Another path begins at its start, at the start of a period. Averages
-/// are reset. 0: the change needs a new simulation, and nothing was done; else 1 + the number of
-/// discs for which there is no room at this moment.
+/// Continues with the same discs from `time`, with other friction coefficients or restitutions,
+/// with all spins stopped or freed, or another number of discs. Another path begins at its start,
+/// at the start of a period. Averages are reset. 0: the change needs a new simulation, and nothing
+/// was done; else 1 + the number of discs for which there is no room at this moment.
 EXPORTED(change) std::uint32_t change(double time) {
     auto [config, measured, given] = parse_request(buffer);
     const Change kind = change_between(simulated->config(), config);
@@ -318,13 +337,14 @@ EXPORTED(change) std::uint32_t change(double time) {
     const auto wanted = static_cast<std::size_t>(config.discs);
     fit_discs(state, wanted);
     config.discs = static_cast<std::int64_t>(state.discs.size());
+    if (can_spin_alike(config)) let_spin(state, config.cannot_spin == 0.0);
     simulate(config, state, measured);
     return static_cast<std::uint32_t>(1 + wanted - state.discs.size());
 }
 
 /// Reverses time from `time` on: negates all velocities and spins, and reverses the path. 0: energy
 /// is not conserved (friction, a floor, or a restitution below 1), and nothing was done.
-EXPORTED(reverse) std::uint32_t reverse(double time) {
+LABORATORY(reverse) std::uint32_t reverse(double time) {
     const RunConfig& config = simulated->config();
     if (!config.conserves_energy()) return 0;
     const double clock = simulated->snapshot_at(time).clock;
@@ -341,7 +361,7 @@ EXPORTED(reverse) std::uint32_t reverse(double time) {
 
 /// Moves disc i to the free position nearest to (x, y) on the way there. It then moves with the
 /// container; all other discs keep their state.
-EXPORTED(drag) void drag(double time, std::uint32_t i, double x, double y) {
+LABORATORY(drag) void drag(double time, std::uint32_t i, double x, double y) {
     const ContainerPath later = path_from(simulated->path(), simulated->snapshot_at(time).clock);
     InitialState state = simulated->continued_from(time, simulated->config(), later);
     if (i >= state.discs.size()) return;
@@ -448,9 +468,9 @@ const double* event_numbers(const Event& e) {
 }  // namespace
 
 /// The last passed event.
-EXPORTED(event) const double* event() { return event_numbers(simulated->event()); }
+LABORATORY(event) const double* event() { return event_numbers(simulated->event()); }
 /// The next event.
-EXPORTED(next_event) const double* next_event() { return event_numbers(simulated->next_event()); }
+LABORATORY(next_event) const double* next_event() { return event_numbers(simulated->next_event()); }
 
 EXPORTED(time) double passed_time() { return simulated->time(); }
 EXPORTED(events) double events() {
@@ -519,20 +539,20 @@ EXPORTED(contacts) std::uint32_t contacts() {
 }
 
 /// Whether maps are measured from now on (Container::show_maps), also in later simulations.
-EXPORTED(show_maps) void show_maps(std::uint32_t shown) {
+LABORATORY(show_maps) void show_maps(std::uint32_t shown) {
     maps_are_shown = shown != 0;
     if (simulated) simulated->show_maps(maps_are_shown);
 }
 
 /// Stores the current report of the maps; column() reads it.
-EXPORTED(report) void report() {
+LABORATORY(report) void report() {
     reports.clear();
     if (const PageObservation* maps = simulated->maps()) reports = maps->report();
 }
 
 /// Selects a column of the stored report, e.g. "density//by_time". Returns its number of values; 0
 /// if there is no such column. values() has them.
-EXPORTED(column) std::uint32_t column() {
+LABORATORY(column) std::uint32_t column() {
     const std::string_view path = buffer;
     const std::size_t first = path.find('/'), second = path.find('/', first + 1);
     if (second == path.npos) return 0;
@@ -551,7 +571,7 @@ EXPORTED(column) std::uint32_t column() {
     return 0;
 }
 /// Selects the map of the spins (spin_map.hpp). Returns its number of values; values() has them.
-EXPORTED(spin_map) std::uint32_t spin_map() {
+LABORATORY(spin_map) std::uint32_t spin_map() {
     numbers = simulated->spins().means();
     return static_cast<std::uint32_t>(numbers.size());
 }
@@ -559,13 +579,13 @@ EXPORTED(values) const double* values() { return numbers.data(); }
 
 /// Memory for `count` runs, five numbers each: N, ϖ/Ω, its error, the periods after the warm-up,
 /// and the effective number of samples.
-EXPORTED(runs) double* runs(std::uint32_t count) {
+LABORATORY(runs) double* runs(std::uint32_t count) {
     numbers.resize(runs_width * std::size_t{count});
     return numbers.data();
 }
 /// JSON of these runs: the estimate at each N, N_c with its error, interval and bracket (null where
 /// there is none), and the N whose sign is not certain.
-EXPORTED(crossing) std::uint32_t crossing() {
+LABORATORY(crossing) std::uint32_t crossing() {
     const std::vector<RotationPoint> curve = curve_of_runs();
     const Crossing c = find_crossing(curve);
     const SignChange* const change = c.last();
@@ -589,14 +609,14 @@ EXPORTED(crossing) std::uint32_t crossing() {
 }
 
 /// Memory for `count` runs of a search (search_width).
-EXPORTED(search_runs) double* search_runs(std::uint32_t count) {
+LABORATORY(search_runs) double* search_runs(std::uint32_t count) {
     numbers.resize(search_width * std::size_t{count});
     return numbers.data();
 }
 /// JSON of the runs that the search makes next (N, replica, length in that of the first runs), and
 /// whether N_c is within the tolerance. The rules are made for a page: one run at a time at each
 /// number, and few of them.
-EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, double rounds) {
+LABORATORY(search) std::uint32_t search(double from, double to, double tolerance, double rounds) {
     CrossingRules rules{.from = std::int64_t(from),
                         .to = std::int64_t(to),
                         .tolerance = tolerance,
@@ -618,7 +638,7 @@ EXPORTED(search) std::uint32_t search(double from, double to, double tolerance, 
 
 /// The result as `swirl run --json` writes it, without the keys on the program's build, its command
 /// line and its duration (docs/how-to/browser_page.md).
-EXPORTED(result) std::uint32_t result() {
+LABORATORY(result) std::uint32_t result() {
     simulated->pass_found_event();
     const RunResult r = simulated->result();
     const MeasuredUnits units = units_of(r.config);

@@ -184,7 +184,7 @@ def draw_fields(table):
         "spin",
         r"(b) spin $\omega$",
         r"$\omega$ ($v/r$)",
-        "PuOr_r",
+        style.directions(),
         True,
     )
     half = [row | {"half": 0.5 * row["vorticity"]} for row in dense]
@@ -195,7 +195,7 @@ def draw_fields(table):
         "half",
         r"(c) half of the vorticity",
         r"$\frac{1}{2}$ curl $u$ ($v/r$)",
-        "PuOr_r",
+        style.directions(),
         True,
     )
     known = [row for row in rows if row["relation"] == row["relation"]]
@@ -206,7 +206,7 @@ def draw_fields(table):
         "torque",
         "(d) torque of the stress",
         "torque ($m v^2/r^2$)",
-        "PuOr_r",
+        style.directions(),
         True,
     )
     panel(
@@ -216,7 +216,7 @@ def draw_fields(table):
         "relation",
         r"(e) $\Gamma\sqrt{mT}\,(\mathrm{curl}\,u - 2\omega)$",
         "torque ($m v^2/r^2$)",
-        "PuOr_r",
+        style.directions(),
         True,
         limit,
     )

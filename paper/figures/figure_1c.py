@@ -4,7 +4,7 @@ simulated discs."""
 import math
 
 import numpy as np
-from paper import style
+from paper import look, style
 from paper.engine import swirl
 from paper.figure import Figure
 from paper.paper_parameters import AMPLITUDE, CONTAINER_RADIUS, COUNTERROTATING_N, ROTATING_N
@@ -200,9 +200,9 @@ def draw_frames(table):
 def draw_pinned(table):
     drawing, axes = style.figure(height=style.COLUMN)
     for row in style.read(table):
-        disc(axes, row["x"], row["y"], row["angle"], style.RED if row["pinned"] else style.SKY)
+        disc(axes, row["x"], row["y"], row["angle"], look.PINNED if row["pinned"] else look.LOOSE)
     style.container(axes, R)
-    for color, words in ((style.RED, "pinned"), (style.SKY, "loose")):
+    for color, words in ((look.PINNED, "pinned"), (look.LOOSE, "loose")):
         axes.plot([], [], "o", color=color, markersize=5, label=words)
     style.legend(axes)
     style.save(drawing, table)

@@ -58,7 +58,7 @@ def draw(table):
     across, up, rates = style.grid(rows, "mu_disc", "mu_wall", "mean_by_time")
     large = len(up) > 6  # the nine steps of the full study need the width of a page
     drawing, axes = style.figure(*((style.PAGE, 5.6) if large else (style.COLUMN, 2.9)))
-    colors = style.plt.get_cmap("PuOr_r").copy()
+    colors = style.directions()
     colors.set_bad("0.85")
     # Counterrotation is weak compared with rotation: linear up to 0.02, logarithmic beyond.
     span = style.matplotlib.colors.SymLogNorm(linthresh=0.02, vmin=-1, vmax=1)

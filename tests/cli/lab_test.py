@@ -159,6 +159,7 @@ class Laboratory(ProgramTest):
     @classmethod
     def setUpClass(cls):
         cls.page = made_of_the_web(cls, LAB, "laboratory.html")
+        cls.pages = made_of_the_web(cls, LAB, "pages/")
         cls.node = subprocess.Popen(
             ["node", "-e", NODE, os.path.join(SOURCE, "build/wasm/swirl.wasm")],
             stdin=subprocess.PIPE,
@@ -207,6 +208,34 @@ class Laboratory(ProgramTest):
                 )
                 self.assertEqual(there["hash"], here["state_hash"])
                 self.assert_same_result(there["result"], here)
+
+    def test_with_the_swirl_has_one_color_in_every_medium(self):
+        # 8 discs turn with the swirl and 48 against it.
+        table = read_json(os.path.join(SOURCE, "web", "src", "drawing", "look.json"))["light"]
+        folder = tempfile.mkdtemp()
+        self.addCleanup(shutil.rmtree, folder)
+        seen = {name: tuple(bytes.fromhex(table[name][1:])) for name in ("with", "against")}
+        for discs, direction in ((8, "with"), (48, "against")):
+            scene = ["--discs", str(discs), "--warmup", "5", "--theme", "light", "--quiet"]
+            drawn = os.path.join(folder, f"{discs}.png")
+            frames = os.path.join(folder, f"{discs}-%05d.png")
+            swirl("image", *scene, "--out", drawn)
+            swirl("movie", *scene, "--duration", "2", "--fps", "2", "--out", frames)
+            for path in (drawn, frames % 3):
+                count = collections.Counter(p for row in pixels_of(path) for p in row)
+                for name, color in seen.items():
+                    there = count[color] > 100
+                    self.assertEqual(there, name == direction, f"{name} in {path}")
+        # The page, the figures and Python plots; units.mjs tests the page's arc.
+        page = read_text(self.page)
+        for name, color in seen.items():
+            text = table[name]
+            self.assertIn(f"--{name}:{text}", page)
+            for copy in ("paper/look.py", "bindings/python/swirl/_look.py"):
+                self.assertIn(f'{name.upper()} = "{text}"', read_text(os.path.join(SOURCE, copy)))
+        movies = read_text(os.path.join(SOURCE, "docs", "how-to", "movies.md"))
+        self.assertIn("Orange means\nwith the swirl", movies)
+        self.assertGreater(seen["with"][0], seen["with"][2] + 100)
 
     def test_the_offered_command_reproduces_the_state(self):
         scenes = [
@@ -805,6 +834,23 @@ class Laboratory(ProgramTest):
         expected = discs * math.pi * (radius / len(rows)) ** 2
         self.assertLess(abs(covered / expected - 1), 0.2)
 
+    def test_the_first_page_in_a_browser(self):
+        if not CHROMIUM:
+            self.skipTest("this test needs chromium")
+        done = subprocess.run(
+            [
+                "node",
+                os.path.join(SOURCE, "web", "test", "first.mjs"),
+                self.pages,
+                CHROMIUM,
+                *COMPLETE,
+            ],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def test_the_layout_on_phones_and_laptops(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
@@ -1116,6 +1162,8 @@ class Laboratory(ProgramTest):
         # 18,000 of them are the font, 2,300 the units of quantities and the particles that cannot
         # spin, 400 the options whose name is not their key.
         self.assertLessEqual(len(packed), 348_500)
+        first = gzip.compress(read_bytes(os.path.join(self.pages, "index.html")), 9)
+        self.assertLessEqual(len(first), 260_000)
 
     @slow("it watches the page for ten seconds; test_the_page_in_a_browser requires motion too")
     def test_it_keeps_running(self):
@@ -1131,8 +1179,9 @@ class Laboratory(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def test_it_makes_no_requests(self):
-        text = read_text(self.page)
-        self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
+        for name in ("index.html", "laboratory.html"):
+            text = read_text(os.path.join(self.pages, name))
+            self.assertNotRegex(text, r"""(src|href)=["']?(https?:)?//""")
 
     def test_it_serves_the_page_and_reports_a_port_in_use(self):
         with socket.socket() as free:

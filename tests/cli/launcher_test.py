@@ -667,7 +667,8 @@ add_dependencies(swirl waits)
             (
                 "npm",
                 f"echo x >>{self.path('builds')}\n"
-                "[ $1 != run ] || { mkdir -p ../build/lab && echo page >../build/lab/index.html; }",
+                "[ $1 != run ] || { mkdir -p ../build/lab && echo page | tee "
+                "../build/lab/index.html >../build/lab/laboratory.html; }",
             ),
         ):
             self.stand_in(name, script + "\n")
@@ -683,7 +684,9 @@ add_dependencies(swirl waits)
         let_go()
         self.write("web/page.ts", "")
         self.stand_in(
-            "npm", "mkdir -p ../build/lab && echo half >../build/lab/index.html\nexit 1\n"
+            "npm",
+            "mkdir -p ../build/lab && echo half | tee ../build/lab/index.html "
+            ">../build/lab/laboratory.html\nexit 1\n",
         )
         for _ in range(2):
             done = self.call_with_stand_ins(*call)

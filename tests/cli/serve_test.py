@@ -15,6 +15,8 @@ PAGE = b"<!doctype html><title>page</title>"
 TARGETS = [
     ("the page", "/", 200),
     ("the page by name, with a query", "/index.html?discs=5&seed=%0A", 200),
+    ("the Laboratory", "/laboratory.html?view=m", 200),
+    ("another file of the folder", "/secret.html", 404),
     ("a bad percent escape in the query", "/?discs=%zz%", 200),
     ("two slashes", "//", 400),
     ("two slashes and a port", "//:99999", 400),
@@ -65,14 +67,16 @@ RAW = [
 class Serve(InFolder):
     def setUp(self):
         super().setUp()
-        self.page = self.path("page.html")
-        with open(self.page, "wb") as file:
-            file.write(PAGE)
+        self.pages = self.path("pages")
+        os.mkdir(self.pages)
+        for name in ("index.html", "laboratory.html", "secret.html"):
+            with open(os.path.join(self.pages, name), "wb") as file:
+                file.write(PAGE)
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             self.port = free.getsockname()[1]
         self.server = subprocess.Popen(
-            ["node", os.path.join(SOURCE, "web", "serve.mjs"), self.page, str(self.port), "no"],
+            ["node", os.path.join(SOURCE, "web", "serve.mjs"), self.pages, str(self.port), "no"],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
         )
@@ -163,7 +167,7 @@ class Serve(InFolder):
         self.assert_serves()
 
     def test_a_missing_page_is_reported(self):
-        os.remove(self.page)
+        os.remove(os.path.join(self.pages, "index.html"))
         for _ in range(2):
             self.assertEqual(self.status(self.get("/")), 500)
         self.assertIsNone(self.server.poll())

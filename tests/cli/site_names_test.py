@@ -12,8 +12,8 @@ from program import HANG, SOURCE, InFolder, read_text, write_text
 
 # Programs in the PATH. The last argument of sphinx-build is the output folder.
 PROGRAMS = {
-    "web/lab.sh": 'for a; do case $a in *.html) echo \'<meta charset="utf-8">\' >"$a" ;; esac; '
-    "done",
+    "web/lab.sh": 'for a; do :; done; mkdir -p "$a"; for p in index laboratory; do '
+    'echo \'<meta charset="utf-8"><a href="index.html">\' >"$a$p.html"; done',
     "bin/sphinx-build": '[ -z "${FAIL-}" ] || exit 1\nfor a; do :; done\n'
     'echo "$PAGE${SWIRL_SITE_ADDRESS:+ at $SWIRL_SITE_ADDRESS}" >"$a/index.html"',
     # Call number AT sends SIGNAL to the calling shell, before or after its rename.
@@ -95,13 +95,15 @@ class SiteNames(InFolder):
             os.path.join(self.site, name), encoding="utf-8"
         ).read()  # noqa: E731
         at = "https://example.org/swirl/"
-        self.assertEqual(read("sitemap.txt"), f"{at}index.html\n{at}lab.html\n")
+        self.assertEqual(read("sitemap.txt"), f"{at}index.html\n{at}lab.html\n{at}laboratory.html\n")
         self.assertEqual(read("robots.txt"), f"Sitemap: {at}sitemap.txt\n")
-        for tag in (
-            f'<link rel="canonical" href="{at}lab.html">',
-            f'<meta property="og:image" content="{at}preview.png">',
-        ):
-            self.assertIn(tag, read("lab.html"))
+        for page in ("lab.html", "laboratory.html"):
+            for tag in (
+                f'<link rel="canonical" href="{at}{page}">',
+                f'<meta property="og:image" content="{at}preview.png">',
+                '<a href="lab.html">',
+            ):
+                self.assertIn(tag, read(page))
         self.assertEqual(read("preview.png"), "picture")
         self.assertEqual(
             self.page(), f"page at {at}"

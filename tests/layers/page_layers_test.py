@@ -12,7 +12,7 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PAGE = SOURCE / "web" / "src"
 
 # The lowest layer first. The last one is the files beside the folders.
-LAYERS = ("texts", "engine", "elements", "drawing", "dish", "panels", "")
+LAYERS = ("texts", "engine", "elements", "drawing", "first", "dish", "panels", "")
 IMPORT = re.compile(r'^(?:import|export)\b[^;"]*?"(\.{1,2}/[^"?]+)', re.M)
 
 

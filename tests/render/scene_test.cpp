@@ -216,8 +216,7 @@ TEST(Scene, ColoursShowTheirQuantity) {
     expect(Coloring::none, {t.disc, t.disc, t.disc});
     expect(Coloring::pinned, {t.pinned, t.loose, t.pinned});
     expect(Coloring::id, {distinct_colors[0], distinct_colors[1], distinct_colors[2]});
-    expect(Coloring::spin,
-           {diverging_color(-1.0, t.neutral), t.neutral, diverging_color(1.0, t.neutral)});
+    expect(Coloring::spin, {t.against, t.neutral, t.with});
     expect(Coloring::speed, {sequential_color(0.0), sequential_color(0.5), sequential_color(1.0)});
 }
 
@@ -272,7 +271,7 @@ TEST(Scene, ArcOfTheTurnsRunsLeftForRotation) {
         canvas.fill_page(style.theme.page);
         const bool clockwise = std::abs(turns) > 1.0;
         draw_scene(canvas, view, style, {.now = s, .turns = turns, .clockwise = clockwise});
-        // Vermilion with the swirl, blue against it, like the spins.
+        // Orange with the swirl, blue against it, like the spins.
         const double sign = (turns < 0.0) == clockwise ? 1.0 : -1.0;
         const Color color = style.theme.direction(sign > 0.0);
         EXPECT_GT(sign * (color.red - color.blue), 0.0);
@@ -283,6 +282,39 @@ TEST(Scene, ArcOfTheTurnsRunsLeftForRotation) {
         const double expected = 0.5 * pi + (turns < 0.0 ? -1.0 : 1.0) * 0.1 * 2.0 * pi;
         EXPECT_NEAR(turned_by(expected, direction(centre, arc.middle)), 0.0, 0.12) << turns;
     }
+}
+
+TEST(Scene, WholeTurnsAreRingsBesideTheArc) {
+    const Snapshot s = container(0.25);
+    const SceneStyle style = plain_style();
+    Canvas canvas(Size{1600, 1600});
+    const View view = fitting_view({0, 0, 1600, 1600}, Frame::lab, 8.6, 1.892, 0.1);
+    const Vec2 centre = view.on_page(s.container_centre);
+    const auto count_of = [&](double turns) {
+        canvas.fill_page(style.theme.page);
+        draw_scene(canvas, view, style, {.now = s, .turns = turns});
+        return patch_of(canvas, style.theme.with).count;
+    };
+    // The number next to the arc is +0.00, so there is no arrow.
+    EXPECT_EQ(count_of(0.004), 0.0);
+    EXPECT_GT(count_of(0.006), 0.0);
+    // Below the centre there are only the rings, since the arc begins at the top.
+    const auto rings = [&](double turns) {
+        count_of(turns);
+        int found = 0;
+        bool inside = false;
+        for (int y = static_cast<int>(centre.y); y < canvas.size().height; ++y) {
+            const Pixel p = pixel(canvas, static_cast<int>(centre.x), y);
+            const bool colored = p.red > p.blue + 20;
+            found += colored && !inside;
+            inside = colored;
+        }
+        return found;
+    };
+    EXPECT_EQ(rings(0.2), 0);
+    EXPECT_EQ(rings(1.2), 1);
+    EXPECT_EQ(rings(2.2), 2);
+    EXPECT_EQ(rings(7.2), 3);
 }
 
 TEST(Scene, GhostsAreBelowTheDiscs) {

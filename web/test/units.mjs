@@ -188,7 +188,9 @@ try {
 
     // Sectors stay with the discs: a rotated cluster keeps its colours, and new discs get those of
     // their place.
-    const {SectorPaint, sectorColors} = await load("paint");
+    const {SectorPaint} = await load("paint"),
+        {paletteOf, sectorColors, diverging} = await load("palette"),
+        {drawTurns} = await load("turns");
     const ring = (count, by = 0) =>
         Array.from({length: count}, (_, k) => {
             const angle = (2 * Math.PI * (k + 0.5)) / count + by;
@@ -216,6 +218,39 @@ try {
     );
     paint.extend(frame(ring(2)));
     assert.deepEqual([...paint.sectors], [0, 0]);
+
+    // The arc of the turns has the colour of its direction and one ring for each whole turn, and
+    // there is none while the number is 0.00.
+    const arcOf = (turns) => {
+        const said = {colors: new Set(), circles: 0, heads: 0};
+        const context = new Proxy(
+            {
+                arc: (x, y, r, from, to) => (said.circles += to - from === 2 * Math.PI),
+                fill: () => (said.heads += 1),
+            },
+            {
+                get: (own, name) => own[name] ?? (() => {}),
+                set: (own, name, value) => {
+                    if (/Style$/.test(name)) said.colors.add(value);
+                    return true;
+                },
+            },
+        );
+        const palette = paletteOf(false);
+        drawTurns(context, {centre: [0, 0], radius: 8.6}, turns, palette, 0.02);
+        const named = [...said.colors].map((color) =>
+            ["with", "against"].find((name) => palette[name] === color),
+        );
+        return [named.join(), said.circles, said.heads];
+    };
+    assert.deepEqual(arcOf(0.004), ["", 0, 0]);
+    assert.deepEqual(arcOf(0.2), ["with", 0, 1]);
+    assert.deepEqual(arcOf(-0.2), ["against", 0, 1]);
+    assert.deepEqual(arcOf(1.51), ["with", 1, 1]);
+    assert.deepEqual(arcOf(-7.5), ["against", 3, 1]);
+    const hex = (shade) => "#" + shade.map((x) => x.toString(16).padStart(2, "0")).join("");
+    assert.equal(hex(diverging(1)), paletteOf(false).with);
+    assert.equal(hex(diverging(-1)), paletteOf(false).against);
 
     // The run on display has an error from 50 periods on.
     const {liveEstimate} = await load("estimates");

@@ -15,7 +15,7 @@ from ._arguments import file_name
 from ._files import exists
 from ._runs import PathName, Value
 
-_BUILT = os.path.join("build", "lab", "index.html")
+_BUILT = os.path.join("build", "lab", "laboratory.html")
 
 
 class Lab:
@@ -75,6 +75,7 @@ def lab(
     start = f'<meta name="swirl-start" content="{html.escape(query)}">'
     # A page that `swirl lab --out` wrote with parameters has such an entry, which is replaced.
     document = re.sub(r'<meta name="swirl-start"[^>]*>\s*', "", document)
+    document = re.sub(r'<a id="to-dish".*?</a>', "", document)  # a notebook has no other page
     before, charset, after = document.partition('<meta charset="utf-8">')
     if not charset:
         raise ValueError(f"'{path}' is not the browser page of swirl.")

@@ -15,7 +15,7 @@ from typing import Any, Optional, Union
 
 import numpy as np
 
-from . import _engine
+from . import _engine, _look
 from ._arguments import shown
 from ._optional import optional
 from ._estimates import Estimate, with_error
@@ -31,6 +31,13 @@ def _axes(axes: Optional[Axes]) -> Axes:
     if axes is not None:
         return axes
     return optional("matplotlib.pyplot", "swirl.plot").subplots(constrained_layout=True)[1]
+
+
+def _directions() -> Any:
+    """The colours of signed rates: clockwise, none, counter-clockwise."""
+    ends = [_look.AGAINST, _look.NEUTRAL, _look.WITH]
+    colors = optional("matplotlib.colors", "swirl.plot")
+    return colors.LinearSegmentedColormap.from_list("directions", ends)
 
 
 def snapshot(
@@ -86,7 +93,7 @@ def snapshot(
         discs.set_array(values)
         if label == "spin / Ω":
             limit = float(np.nanmax(np.abs(values), initial=1e-12))
-            discs.set_cmap("RdBu_r")
+            discs.set_cmap(_directions())
             discs.set_clim(-limit, limit)
     axes.add_collection(discs)
     if label:

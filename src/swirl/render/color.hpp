@@ -4,8 +4,8 @@
 //   - the categorical hues are those of Okabe and Ito ("Color Universal Design", 2008);
 //   - the sequential scale rises evenly in lightness, as viridis does (van der Walt and Smith,
 //     2015);
-//   - the diverging scale goes from blue to vermillion through the theme's neutral colour. People
-//     with red-green colour blindness separate this pair best.
+//   - the diverging scale of a theme (theme.hpp) goes from blue to orange through a neutral colour.
+//     People with red-green colour blindness separate this pair best.
 #pragma once
 
 #include <array>
@@ -39,11 +39,11 @@ inline constexpr std::array<Color, 7> distinct_colors{
     color_from_hex(0xCC79A7), color_from_hex(0xF0E442), color_from_hex(0x0072B2),
     color_from_hex(0xD55E00)};
 
-/// Sectors of a cluster, around the circle: neighbours are similar, and opposite ones differ for
-/// every colour vision. The browser page has the same (web/src/drawing/paint.ts).
+/// Sectors of a cluster, around the circle: neighbours are similar, and opposite ones differ in
+/// lightness. Blue and orange are missing, because they mean a direction of rotation (theme.hpp).
 inline constexpr std::array<Color, 6> sector_colors{
-    color_from_hex(0x2A6DB0), color_from_hex(0x62B5E5), color_from_hex(0x2A9D80),
-    color_from_hex(0xF3D95A), color_from_hex(0xEA9F33), color_from_hex(0xD65F2B)};
+    color_from_hex(0xEBDD45), color_from_hex(0x9CC63F), color_from_hex(0x1F9077),
+    color_from_hex(0x59636E), color_from_hex(0x8654B0), color_from_hex(0xE591BA)};
 
 /// Interpolates evenly spaced stops. `u` is clamped to 0…1; NaN counts as 0.
 template <std::size_t count>
@@ -55,20 +55,12 @@ constexpr Color interpolate(const std::array<Color, count>& stops, double u) {
     return mix(stops[below], stops[below + 1], position - static_cast<double>(below));
 }
 
-/// 0…1 → dark blue, green, yellow.
-constexpr Color sequential_color(double u) {
-    constexpr std::array<Color, 7> stops{color_from_hex(0x46337E), color_from_hex(0x365C8D),
-                                         color_from_hex(0x277F8E), color_from_hex(0x1FA187),
-                                         color_from_hex(0x4AC16D), color_from_hex(0xA0DA39),
-                                         color_from_hex(0xFDE725)};
-    return interpolate(stops, u);
-}
+inline constexpr std::array<Color, 7> sequential_stops{
+    color_from_hex(0x46337E), color_from_hex(0x365C8D), color_from_hex(0x277F8E),
+    color_from_hex(0x1FA187), color_from_hex(0x4AC16D), color_from_hex(0xA0DA39),
+    color_from_hex(0xFDE725)};
 
-/// −1…1 → blue, neutral, vermillion.
-constexpr Color diverging_color(double u, const Color& neutral) {
-    const std::array<Color, 5> stops{color_from_hex(0x0072B2), color_from_hex(0x6DB6E3), neutral,
-                                     color_from_hex(0xF0A45D), color_from_hex(0xD55E00)};
-    return interpolate(stops, 0.5 * (u + 1.0));
-}
+/// 0…1 → dark blue, green, yellow.
+constexpr Color sequential_color(double u) { return interpolate(sequential_stops, u); }
 
 }  // namespace swirl

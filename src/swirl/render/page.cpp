@@ -193,7 +193,7 @@ Page::Page(const std::vector<FrameSource>& sources, const Appearance& appearance
     if (appearance.plot || appearance.turned || needs_scale) {
         for (std::size_t k = 0; k < sources.size(); ++k) {
             Curve curve = survey.scan(sources[k], appearance.frames.front(), start, end);
-            curve.color = k == 0 ? appearance.theme.curve : appearance.theme.pinned;
+            curve.color = k == 0 ? appearance.theme.curve : appearance.theme.accent;
             if (sources.size() > 1) curve.label = sources[k].caption;
             curves_.push_back(std::move(curve));
         }

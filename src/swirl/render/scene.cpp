@@ -46,7 +46,7 @@ Color disc_color(const SceneStyle& style, const SceneContent& content, const Fra
             return content.pinned[i] ? theme.pinned : theme.loose;
         case Coloring::spin:
             if (std::isnan(now.spin[i])) return theme.disc;
-            return diverging_color(now.spin[i] / style.full_spin, theme.neutral);
+            return theme.diverging(now.spin[i] / style.full_spin);
         case Coloring::speed:
             return sequential_color(length_of(frame.velocity(now.position(i), now.velocity(i))) /
                                     style.full_speed);
@@ -383,18 +383,24 @@ void draw_arc_head(const Canvas& canvas, Vec2 c, double radius, double angle, do
     canvas.fill(color);
 }
 
-/// An arc from the top, with a head that points along it. It shows only the fraction of the last
-/// turn: the number next to it (sheet.cpp) counts whole turns.
+/// An arc from the top, with a head that points along it: the fraction of the last turn. Each whole
+/// turn is a ring outside the arc, up to three; the number next to it (sheet.cpp) counts all. There
+/// is no arrow while that number is 0.00, because nothing has turned then.
 void draw_turn_arc(const Canvas& canvas, const View& view, const SceneStyle& style,
                    const SceneContent& content) {
-    if (!content.turns || view.frame != Frame::lab) return;
+    constexpr double least = 0.005;
+    if (!content.turns || view.frame != Frame::lab || std::abs(*content.turns) < least) return;
     cairo_t* cairo = canvas.cairo();
     const double unit = radius_on_page(view, content.now), width = 0.035 * unit;
     const double radius = unit * (1.0 + wall_thickness + 0.045);
     const Vec2 c = view.on_page(content.now.container_centre);
-    const double turns = *content.turns;
+    const double turns = *content.turns, whole = std::trunc(turns);
     const Color color = style.theme.direction(content.turns_with_swirl() >= 0.0);
-    const double top = -0.5 * pi, sweep = -full_turn * (turns - std::trunc(turns));
+    for (int ring = 0; ring < std::min(3, static_cast<int>(std::abs(whole))); ++ring) {
+        canvas.add_circle(c, radius + (0.8 + 0.3 * ring) * width);
+        canvas.stroke(0.15 * width, color);
+    }
+    const double top = -0.5 * pi, sweep = -full_turn * (turns - whole);
     cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
     cairo_new_sub_path(cairo);
     (sweep < 0.0 ? cairo_arc_negative : cairo_arc)(cairo, c.x, c.y, radius, top, top + sweep);

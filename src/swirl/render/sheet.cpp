@@ -261,9 +261,8 @@ void Sheet::draw_legend(const Canvas& canvas) const {
             const double end = k + 1 < steps ? (k + 1.5) / steps : 1.0;
             cairo_rectangle(cairo, x + length * k / steps, middle - 0.4 * em,
                             length * (end - static_cast<double>(k) / steps), 0.8 * em);
-            canvas.fill(entry.kind == Kind::diverging_bar
-                            ? diverging_color(2.0 * u - 1.0, entry.color)
-                            : sequential_color(u));
+            canvas.fill(entry.kind == Kind::diverging_bar ? theme.diverging(2.0 * u - 1.0)
+                                                          : sequential_color(u));
         }
         x += length + 0.5 * em;
         x += draw_label(canvas, entry.high, {x, baseline}, label) + 0.9 * em;

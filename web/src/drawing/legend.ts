@@ -2,7 +2,7 @@
 // images and movies contain it.
 import {mapColor} from "./maps";
 import {canvasFont} from "../elements/page";
-import {diverging, looseColor, pinnedColor, slidingColor, type Palette} from "./palette";
+import {diverging, sequential, slidingColor, type Palette} from "./palette";
 import {texts} from "../texts/texts";
 import type {DrawOptions} from "./view";
 
@@ -62,7 +62,7 @@ export function drawLegend(
             say(texts.flowKey);
             y -= row;
         }
-        chip(pinnedColor, texts.pinned, true);
+        chip(palette.pinned, texts.pinned, true);
         chip(palette.quiet, texts.loose, true);
         if (kind === "density")
             bar((t) => `rgb(${mapColor(t, look.dark).join(" ")})`, texts.sparse, texts.dense);
@@ -75,10 +75,10 @@ export function drawLegend(
         }
         bar(ofSpin, texts.spinAgainst, texts.spinWith);
     } else if (look.coloring === "speed") {
-        bar(ofSpin, texts.atRest, texts.fast);
+        bar((t) => `rgb(${sequential(t).join(" ")})`, texts.atRest, texts.fast);
     } else if (look.coloring === "pinned") {
-        chip(looseColor, texts.loose);
-        chip(pinnedColor, texts.pinned);
+        chip(palette.loose, texts.loose);
+        chip(palette.pinned, texts.pinned);
     }
     if (!look.note) return;
     context.textAlign = "right";

@@ -88,7 +88,7 @@ function drawFlow(
     isDark: boolean,
 ): void {
     const cell = x.length > 1 ? x[1]! - x[0]! : 0;
-    context.strokeStyle = context.fillStyle = paletteOf(isDark).against;
+    context.strokeStyle = context.fillStyle = paletteOf(isDark).quiet;
     context.lineWidth = 0.12 * cell;
     for (let k = 0; k < x.length; ++k) {
         // The wall moves at about the speed of the container, 1: an arrow of one cell.

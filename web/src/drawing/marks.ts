@@ -30,28 +30,6 @@ function write(
     context.restore();
 }
 
-/** The direction in which the container moves on its path: an arrow at the edge of the image. */
-export function drawSwirl(
-    context: CanvasRenderingContext2D,
-    radius: number,
-    palette: Palette,
-    hair: number,
-): void {
-    const [from, to] = [0.8 * Math.PI, 1.25 * Math.PI],
-        [c, s] = [Math.cos(to), Math.sin(to)],
-        length = 11 * hair;
-    context.strokeStyle = context.fillStyle = palette.quiet;
-    context.lineWidth = 3 * hair;
-    context.beginPath();
-    context.arc(0, 0, radius, from, to);
-    context.stroke();
-    context.beginPath();
-    context.moveTo(radius * c - length * s, radius * s + length * c);
-    for (const side of [-0.5, 0.5])
-        context.lineTo((radius + side * length) * c, (radius + side * length) * s);
-    context.fill();
-}
-
 /** Contacts in which friction stopped the slip as bars that tie the surfaces together, and sliding
  *  ones as dots. */
 export function drawContacts(
@@ -93,44 +71,6 @@ export function drawContacts(
             context.fill();
         }
     }
-}
-
-/** An arc around the wall that starts at the top, as in movies, and a number: the rotation of the
- *  cluster. A thin circle stands for all whole turns. */
-export function drawTurns(
-    context: CanvasRenderingContext2D,
-    frame: Frame,
-    turns: number,
-    palette: Palette,
-    hair: number,
-): void {
-    const rest = turns - Math.trunc(turns),
-        radius = frame.radius + 9 * hair;
-    if (!(frame.radius > 20 * hair)) return; // the container is a dot at this scale
-    const [cx, cy] = frame.centre,
-        from = 0.5 * Math.PI,
-        to = from + 2 * Math.PI * rest,
-        way = Math.sign(turns);
-    context.strokeStyle = context.fillStyle = turns < 0 ? palette.against : palette.with;
-    if (Math.trunc(turns) !== 0) {
-        context.lineWidth = 1.5 * hair;
-        context.beginPath();
-        context.arc(cx, cy, radius, 0, 2 * Math.PI);
-        context.stroke();
-    }
-    context.lineWidth = 6 * hair;
-    context.lineCap = "round";
-    context.beginPath();
-    context.arc(cx, cy, radius, from, to, rest < 0);
-    context.stroke();
-    context.lineCap = "butt";
-    const [c, s] = [Math.cos(to), Math.sin(to)],
-        length = 12 * hair;
-    context.beginPath();
-    context.moveTo(cx + radius * c - way * length * s, cy + radius * s + way * length * c);
-    for (const side of [-0.6, 0.6])
-        context.lineTo(cx + (radius + side * length) * c, cy + (radius + side * length) * s);
-    context.fill();
 }
 
 export function drawHeld(
@@ -203,6 +143,7 @@ export function drawForces(
     f: Float64Array,
     frame: Frame,
     omega: number,
+    palette: Palette,
     hair: number,
 ): void {
     const amplitude = Math.hypot(...frame.centre),
@@ -222,10 +163,16 @@ export function drawForces(
             context,
             at,
             [at[0] + centrifugal * (at[0] - sx), at[1] + centrifugal * (at[1] - sy)],
-            "#8a5a00",
+            palette.centrifugal,
             2 * hair,
         );
-        drawArrow(context, at, [at[0] + coriolis * wy, at[1] - coriolis * wx], "#a0307a", 2 * hair);
+        drawArrow(
+            context,
+            at,
+            [at[0] + coriolis * wy, at[1] - coriolis * wx],
+            palette.coriolis,
+            2 * hair,
+        );
     }
 }
 

@@ -1,11 +1,8 @@
 // Paints each disc by the sector of the cluster in which it is. The colours stay with the discs, so
 // the pattern shows how far the cluster has turned, and how it mixes.
 import {frameDisc, frameHead} from "../engine/engine";
+import {sectorColors} from "./palette";
 import {centreOf} from "./strobe";
-
-/** Around the circle, neighbouring colours are similar; readers with any colour vision can tell
- *  opposite ones apart (after Okabe and Ito 2008, https://jfly.uni-koeln.de/color). */
-export const sectorColors = ["#2a6db0", "#62b5e5", "#2a9d80", "#f3d95a", "#ea9f33", "#d65f2b"];
 
 export class SectorPaint {
     /** A sector for each disc. */

@@ -4,18 +4,9 @@ import {drawBall, inRotatedAxes, type Orientation} from "./ball";
 import {frameDisc, frameHead, frameOrientation} from "../engine/engine";
 import {drawLegend} from "./legend";
 import {drawMap} from "./maps";
-import {
-    drawContacts,
-    drawEvent,
-    drawForces,
-    drawHeld,
-    drawMarks,
-    drawNext,
-    drawSwirl,
-    drawTurns,
-} from "./marks";
-import {sectorColors} from "./paint";
-import {diverging, idColors, looseColor, paletteOf, pinnedColor, type Palette} from "./palette";
+import {drawContacts, drawEvent, drawForces, drawHeld, drawMarks, drawNext} from "./marks";
+import {diverging, idColors, paletteOf, sectorColors, sequential, type Palette} from "./palette";
+import {drawSwirl, drawTurns} from "./turns";
 import {head, shown, type DrawOptions, type Frame, type View} from "./view";
 
 const swirlInset = 6; // pixels of the page, from the edge to the arrow of the swirl
@@ -65,13 +56,16 @@ function orientationOf(f: Float64Array, i: number): Orientation | undefined {
     return k < f.length ? [f[k]!, f[k + 1]!, f[k + 2]!, f[k + 3]!] : undefined;
 }
 
-function color(f: Float64Array, k: number, i: number, {coloring, sectors}: DrawOptions): string {
+function color(f: Float64Array, k: number, i: number, look: DrawOptions): string {
+    const {coloring, sectors} = look;
     if (coloring === "sector") return sectorColors[sectors[i] ?? 0]!;
     if (coloring === "id") return idColors[i % idColors.length]!;
-    if (coloring === "pinned") return f[k + 7] === 1 ? pinnedColor : looseColor;
+    if (coloring === "pinned") return paletteOf(look.dark)[f[k + 7] === 1 ? "pinned" : "loose"];
     const [vx, vy] = [f[k + 4]! - f[5]!, f[k + 5]! - f[6]!]; // relative to the container
-    // Full colour at a spin of 1.3 Ω of the paper's container.
-    return `rgb(${diverging(coloring !== "speed" ? 1.5 * f[k + 3]! : Math.hypot(vx, vy) - 1).join(" ")})`;
+    // Full colour at a spin of 1.3 Ω of the paper's container, or twice the container's speed.
+    const shade =
+        coloring === "speed" ? sequential(Math.hypot(vx, vy) / 2) : diverging(1.5 * f[k + 3]!);
+    return `rgb(${shade.join(" ")})`;
 }
 
 const minBallRadius = 6; // pixels; the pattern of smaller spheres is invisible
@@ -111,7 +105,8 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
     if (look.map) drawOutlines(context, f, frame, look, palette, hair);
     else drawDiscs(context, f, frame, look, frameAngle, scale, hair);
     if (look.coloring === "contacts") drawContacts(context, f, frame, look, palette, hair);
-    if (look.view === "m" && look.omega > 0) drawForces(context, f, frame, look.omega, hair);
+    if (look.view === "m" && look.omega > 0)
+        drawForces(context, f, frame, look.omega, palette, hair);
     if (look.held !== undefined && look.held < frame.discs)
         drawHeld(context, f, frame, look, palette, look.held, hair);
     drawNext(context, f, frame, look, hair);
@@ -217,7 +212,7 @@ function drawOutlines(
     for (let i = 0; i < frame.discs; ++i) {
         const k = frameHead + frameDisc * i,
             pinned = f[k + 7] === 1;
-        context.strokeStyle = pinned ? pinnedColor : palette.ink;
+        context.strokeStyle = pinned ? palette.pinned : palette.ink;
         context.globalAlpha = pinned ? 1 : 0.35;
         context.lineWidth = (pinned ? 3 : 1) * hair;
         context.beginPath();

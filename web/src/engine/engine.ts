@@ -267,7 +267,8 @@ export class Engine {
     }
     /** Whether maps are measured, which costs several times the simulation. */
     showMaps(shown: boolean): void {
-        this.out.show_maps(Number(shown));
+        if (shown) this.out.show_maps(1);
+        else this.out.show_maps?.(0); // the engine of the first page has no maps
     }
     /** Stores the current report of the maps; column() reads it. */
     report(): void {

@@ -1,0 +1,67 @@
+// Arrows and arcs around the container: the direction of the swirl, and the turns of the cluster.
+import type {Palette} from "./palette";
+import type {Frame} from "./view";
+
+/** The direction in which the container moves on its path: an arrow at the edge of the image. */
+export function drawSwirl(
+    context: CanvasRenderingContext2D,
+    radius: number,
+    palette: Palette,
+    hair: number,
+): void {
+    const [from, to] = [0.8 * Math.PI, 1.25 * Math.PI],
+        [c, s] = [Math.cos(to), Math.sin(to)],
+        length = 11 * hair;
+    context.strokeStyle = context.fillStyle = palette.quiet;
+    context.lineWidth = 3 * hair;
+    context.beginPath();
+    context.arc(0, 0, radius, from, to);
+    context.stroke();
+    context.beginPath();
+    context.moveTo(radius * c - length * s, radius * s + length * c);
+    for (const side of [-0.5, 0.5])
+        context.lineTo((radius + side * length) * c, (radius + side * length) * s);
+    context.fill();
+}
+
+const leastTurns = 0.005; // the number next to the arc is 0.00 below it
+
+/** An arc around the wall that starts at the top, as in movies: the fraction of the last turn of
+ *  the cluster. Each whole turn is a ring outside the arc, up to three. */
+export function drawTurns(
+    context: CanvasRenderingContext2D,
+    frame: Frame,
+    turns: number,
+    palette: Palette,
+    hair: number,
+): void {
+    const whole = Math.trunc(turns),
+        rest = turns - whole,
+        radius = frame.radius + 9 * hair;
+    if (!(frame.radius > 20 * hair)) return; // the container is a dot at this scale
+    if (Math.abs(turns) < leastTurns) return;
+    const [cx, cy] = frame.centre,
+        from = 0.5 * Math.PI,
+        to = from + 2 * Math.PI * rest,
+        way = Math.sign(turns);
+    context.strokeStyle = context.fillStyle = turns < 0 ? palette.against : palette.with;
+    context.lineWidth = hair;
+    for (let ring = 0; ring < Math.min(3, Math.abs(whole)); ++ring) {
+        context.beginPath();
+        context.arc(cx, cy, radius + (4.8 + 2 * ring) * hair, 0, 2 * Math.PI);
+        context.stroke();
+    }
+    context.lineWidth = 6 * hair;
+    context.lineCap = "round";
+    context.beginPath();
+    context.arc(cx, cy, radius, from, to, rest < 0);
+    context.stroke();
+    context.lineCap = "butt";
+    const [c, s] = [Math.cos(to), Math.sin(to)],
+        length = 12 * hair;
+    context.beginPath();
+    context.moveTo(cx + radius * c - way * length * s, cy + radius * s + way * length * c);
+    for (const side of [-0.6, 0.6])
+        context.lineTo(cx + (radius + side * length) * c, cy + (radius + side * length) * s);
+    context.fill();
+}
