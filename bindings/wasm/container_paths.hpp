@@ -1,4 +1,4 @@
-// Paths that the page needs: by hand, and reversed.
+// Paths that the page needs: by hand.
 #pragma once
 
 #include "swirl/physics/container_path.hpp"
@@ -18,15 +18,5 @@ inline ContainerPath path_by_hand(const Vec2& from, const Vec2& to, double durat
 }
 
 inline bool is_by_hand(const ContainerPath& path) { return path.period == no_period; }
-
-/// The path from its end to its start.
-inline ContainerPath reversed(const ContainerPath& path) {
-    ContainerPath result{path.period, {}};
-    for (auto segment = path.segments.rbegin(); segment != path.segments.rend(); ++segment)
-        result.segments.push_back({path.period - segment->end, path.period - segment->begin,
-                                   segment->position_at(segment->end),
-                                   -1.0 * segment->velocity_at(segment->end), -segment->turn_rate});
-    return result;
-}
 
 }  // namespace swirl

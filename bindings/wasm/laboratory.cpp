@@ -342,23 +342,6 @@ EXPORTED(change) std::uint32_t change(double time) {
     return static_cast<std::uint32_t>(1 + wanted - state.discs.size());
 }
 
-/// Reverses time from `time` on: negates all velocities and spins, and reverses the path. 0: energy
-/// is not conserved (friction, a floor, or a restitution below 1), and nothing was done.
-LABORATORY(reverse) std::uint32_t reverse(double time) {
-    const RunConfig& config = simulated->config();
-    if (!config.conserves_energy()) return 0;
-    const double clock = simulated->snapshot_at(time).clock;
-    const ContainerPath back =
-        path_from(reversed(simulated->path()), simulated->path().period - clock);
-    InitialState state = simulated->continued_from(time, config, back);
-    for (Disc& disc : state.discs) {
-        disc.velocity = -1.0 * disc.velocity;
-        disc.spin = -disc.spin;
-    }
-    simulate(config, state, simulated->measured());
-    return 1;
-}
-
 /// Moves disc i to the free position nearest to (x, y) on the way there. It then moves with the
 /// container; all other discs keep their state.
 LABORATORY(drag) void drag(double time, std::uint32_t i, double x, double y) {

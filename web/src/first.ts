@@ -78,7 +78,8 @@ const surface = (): string =>
 /** The direction of the present number of discs, as far as it is measured. */
 const way = (): Way | undefined => points.of(surface()).get(n)?.way;
 
-/** Writes a sentence in which {way} is in its colour. */
+const mark = "\n"; // the place of the coloured words
+/** Writes a sentence in which the direction is in its colour. */
 function say(): void {
     const found = way();
     let text = fill(words.discs, {n});
@@ -87,8 +88,8 @@ function say(): void {
             sign = turns < 0 ? "−" : "+";
         text = fill(words.byHand, {turns: localized(sign + Math.abs(turns).toFixed(1))});
     } else if (found === "still") text = fill(words.still, {n});
-    else if (found) text = fill(words.turn, {n});
-    const [before, after] = text.split("{way}") as [string, string?];
+    else if (found) text = fill(words.turn, {n, way: mark});
+    const [before, after] = text.split(mark) as [string, string?];
     const sentence = byId("sentence"),
         key = text + (found ?? "");
     if (sentence.dataset["said"] === key) return;

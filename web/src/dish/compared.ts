@@ -6,7 +6,7 @@ import {button, dark, element, signed} from "../elements/page";
 import {SectorPaint} from "../drawing/paint";
 import {draw} from "../drawing/scene";
 import type {Coloring} from "../drawing/view";
-import {Glide, isWholePeriod} from "../drawing/strobe";
+import {isWholePeriod} from "../drawing/strobe";
 import {Contacts} from "../drawing/contacts";
 import {fill, engineMessage, texts} from "../texts/texts";
 import {captionOf, findingOf, type Finding} from "./finding";
@@ -28,7 +28,7 @@ export class ComparedContainer {
     last: Float64Array | undefined;
     private readonly worker: Worker;
     private readonly caption = element("figcaption");
-    private readonly glide = new Glide();
+    private shown: {frame: Float64Array; turns: number} | undefined;
     private readonly paint = new SectorPaint();
     private readonly contacts = new Contacts();
     private waiting = true;
@@ -91,9 +91,9 @@ export class ComparedContainer {
             if (look.coloring === "sector" && this.last) this.paint.apply(this.last);
         }
         this.look = {...look};
-        const image = this.glide.image;
-        if (image)
-            draw(this.canvas, image.frame, {
+        const {shown} = this;
+        if (shown)
+            draw(this.canvas, shown.frame, {
                 view: "lab",
                 coloring: this.look.coloring,
                 sectors: this.paint.sectors,
@@ -103,7 +103,7 @@ export class ComparedContainer {
                 omega: 0,
                 dark: dark(),
                 room: this.room,
-                turns: image.turns,
+                turns: shown.turns,
                 held: undefined,
                 contacts: this.contacts.recent,
             });
@@ -132,7 +132,7 @@ export class ComparedContainer {
         if (this.isNew || this.last?.length !== frame.length || frame[1]! > this.last[1]! + 1) {
             // it skipped periods
             this.paint.apply(frame);
-            this.glide.clear();
+            this.shown = undefined;
         }
         this.isNew = false;
         this.last = frame;
@@ -141,7 +141,7 @@ export class ComparedContainer {
         const stops = (look.strobe || look.isLapse) && !look.isByHand;
         if (!stops || isWholePeriod(frame, this.period)) {
             if (!look.isLapse && this.paint.isMixed(frame)) this.paint.apply(frame);
-            this.glide.add(frame, turns, look.isLapse);
+            this.shown = {frame, turns};
         }
         this.redraw();
         if (look.isByHand)

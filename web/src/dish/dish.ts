@@ -8,7 +8,7 @@ import {byId, dark, element, signed} from "../elements/page";
 import {SectorPaint} from "../drawing/paint";
 import {discAt, discOf, draw, pointedAt, recent} from "../drawing/scene";
 import type {Coloring, View} from "../drawing/view";
-import {Glide, isWholePeriod} from "../drawing/strobe";
+import {isWholePeriod} from "../drawing/strobe";
 import {fill, texts} from "../texts/texts";
 import {captionOf, findingOf} from "./finding";
 
@@ -27,7 +27,6 @@ export class Dish {
     trails = false;
     forces = false;
     private strobes = false;
-    private readonly glide = new Glide();
     private readonly contacts = new Contacts();
     /** The same, while time runs fast to the averages. */
     isLapse = false;
@@ -144,7 +143,6 @@ export class Dish {
     private forget(): void {
         this.measures = ""; // there may be another worker
         this.history = [];
-        this.glide.clear();
         if (this.compared?.follows && this.compared.last) this.compared.begin();
         this.shown = this.maps = undefined;
         this.paint.sectors.length = 0;
@@ -176,18 +174,7 @@ export class Dish {
         if (!this.isLapse && before?.[1] !== frame.frame[1] && this.paint.isMixed(frame.frame))
             this.paint.apply(frame.frame);
         this.shown = frame;
-        this.glide.add(frame.frame, frame.turns[0], this.isLapse);
         this.redraw();
-    }
-
-    /** Whether the image changes until the next one arrives. */
-    get isMoving(): boolean {
-        return this.glide.isMoving;
-    }
-
-    /** Draws what has changed since the last frame. */
-    animate(): void {
-        if (this.isMoving) this.redraw();
     }
 
     private requestMaps(): void {
@@ -211,15 +198,14 @@ export class Dish {
     }
 
     redraw(): void {
-        const {lab, shown} = this,
-            image = this.glide.image;
-        if (!shown || !image) return;
+        const {lab, shown} = this;
+        if (!shown) return;
         const period = lab.value("period");
         const past = this.trails
             ? recent(this.history, shown.frame, (this.strobe ? strobeTrail : trailPeriods) * period)
             : [];
         for (const [each, canvas] of Object.entries(this.canvases) as [View, HTMLCanvasElement][]) {
-            draw(canvas, image.frame, {
+            draw(canvas, shown.frame, {
                 view: each,
                 coloring: this.coloring,
                 sectors: this.paint.sectors,
@@ -229,7 +215,7 @@ export class Dish {
                 dark: dark(),
                 omega: this.forces && !lab.isByHand ? (2 * Math.PI) / period : 0,
                 room: lab.maxDistance(),
-                turns: image.turns,
+                turns: shown.turns[0],
                 held: this.held,
                 contacts: this.contacts.recent,
                 map: isMap(this.view) ? layerOf(this.view, this.maps) : undefined,

@@ -73,11 +73,9 @@ export class Player {
         this.askForFrame();
     }
 
-    /** Asks for an animation frame while time passes or an image glides to the next, and the page is
-     *  visible. */
+    /** Asks for an animation frame while time passes and the page is visible. */
     private askForFrame(): void {
-        const moves = this.isPlaying || this.dish.isMoving;
-        if (!this.isStarted || this.isAsked || !moves || document.hidden) return;
+        if (!this.isStarted || this.isAsked || !this.isPlaying || document.hidden) return;
         this.isAsked = true;
         requestAnimationFrame((now) => {
             this.isAsked = false;
@@ -150,7 +148,6 @@ export class Player {
 
     private animate(now: number): void {
         const {lab, dish} = this;
-        dish.animate();
         if (dish.holdsTime) this.lastTick = 0;
         if (!this.isPlaying || lab.isWaiting || !lab.last || dish.holdsTime) return;
         // After a pause, or a while in the background, time continues from here.

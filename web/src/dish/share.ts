@@ -148,7 +148,6 @@ export class Share {
         lab.on("error", () => this.offerCommand());
         lab.on("changed", () => this.offerCommand());
         lab.on("frame", (frame) => {
-            this.recording.add(frame.frame);
             byId("event-count").textContent = String(frame.events);
             byId("state-hash").textContent = frame.hash;
             this.offerCommand(frame.command);

@@ -26,6 +26,10 @@ const shade = (hex: string): Shade =>
 const mixed = (a: Shade, b: Shade, share: number): Shade =>
     a.map((x, k) => Math.round(x + share * (b[k]! - x))) as Shade;
 
+/** A colour on its way to black or white. */
+export const toned = (hex: string, towards: "black" | "white", share: number): string =>
+    `rgb(${mixed(shade(hex), towards === "black" ? [0, 0, 0] : [255, 255, 255], share).join(" ")})`;
+
 const [with_, against, grey] = [look.light.with, look.light.against, look.light.neutral].map(
     shade,
 ) as [Shade, Shade, Shade];

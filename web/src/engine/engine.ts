@@ -103,7 +103,6 @@ type Exports = {memory: WebAssembly.Memory; state_hash(): bigint} & Record<
     | "keeps_discs"
     | "change"
     | "steer"
-    | "reverse"
     | "drag"
     | "result"
     | "command"
@@ -247,11 +246,6 @@ export class Engine {
     /** From `time` on the container moves straight to a point. The engine's time restarts at 0. */
     steer(time: number, x: number, y: number, duration: number): void {
         this.out.steer(time, x, y, duration);
-    }
-    /** Reverses time from `time` on; false if energy is not conserved. The engine's time restarts
-     *  at 0. */
-    reverse(time: number): boolean {
-        return this.out.reverse(time) === 1;
     }
     /** Moves a disc to the free position nearest to a point. The engine's time restarts at 0. */
     drag(time: number, disc: number, x: number, y: number): void {

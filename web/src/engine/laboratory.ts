@@ -23,7 +23,6 @@ export interface Reports {
     maps: [maps: Maps];
     /** Some values that were given by the user have changed. */
     given: [];
-    reversed: [];
     result: [text: string];
     progress: [unit: "events" | "periods", done: number, all: number];
     /** `parameter` is the name of the one whose value is wrong, if it is known. */
@@ -67,7 +66,6 @@ export class Laboratory {
     /** Number of discs that still have to be added, because there was no free position. */
     missing = 0;
     isByHand = false;
-    isBackwards = false;
     /** An error is shown, and there is no simulation. */
     hasFailed = false;
     /** The answer to a message is missing. */
@@ -159,7 +157,7 @@ export class Laboratory {
         this.last = undefined;
         this.averages = this.cause = undefined;
         this.isWaiting = true;
-        this.wasChanged = this.isByHand = this.isBackwards = this.hasFailed = false;
+        this.wasChanged = this.isByHand = this.hasFailed = false;
         const message: ToWorker = {kind: "begin", given: this.given, events, run: ++this.run};
         // A worker that still places the discs of an earlier request would answer late.
         if (this.placing !== undefined) this.renewWorker(message);
@@ -292,11 +290,6 @@ export class Laboratory {
                 this.configuration = data.configuration;
                 this.missing = data.missing;
                 return this.resetAverages(true);
-            case "reversed":
-                if (!data.done) return;
-                this.isBackwards = !this.isBackwards;
-                this.resetAverages();
-                return this.report("reversed");
             case "result":
                 return this.report("result", data.text);
             case "maps":

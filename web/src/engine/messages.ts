@@ -28,8 +28,6 @@ export type ToWorker =
     | {kind: "change"; given: Record<string, string>}
     /** By hand: the container moves straight to a point within `duration`. Answered by a frame. */
     | {kind: "steer"; x: number; y: number; duration: number}
-    /** Reverses time, if energy is conserved. */
-    | {kind: "reverse"}
     /** Moves a disc to the free position nearest to a point. Answered by a frame. */
     | {kind: "drag"; disc: number; x: number; y: number}
     | {kind: "result"}
@@ -91,7 +89,6 @@ export type FromWorker =
           missing: number;
           configuration: Record<string, string>;
       }
-    | {kind: "reversed"; done: boolean}
     /** JSON as the command line writes it. */
     | {kind: "result"; text: string}
     | Maps

@@ -205,14 +205,6 @@ function steer(x: number, y: number, duration: number): void {
     show();
 }
 
-function reverse(): void {
-    if (!engine) return;
-    const done = engine.reverse(now);
-    if (done) now = 0;
-    send({kind: "reversed", done});
-    show();
-}
-
 function drag(disc: number, x: number, y: number): void {
     if (!engine) return;
     engine.drag(now, disc, x, y);
@@ -275,7 +267,6 @@ const handlers: {
     skip: ({periods}) => skip(periods),
     change: ({given}) => requestChange(given),
     steer: ({x, y, duration}) => steer(x, y, duration),
-    reverse: () => reverse(),
     drag: ({disc, x, y}) => drag(disc, x, y),
     result: () => engine && send({kind: "result", text: engine.result()}),
     measure: ({maps: shown, contacts}) => {

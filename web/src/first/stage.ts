@@ -1,7 +1,7 @@
 // Draws the dish of the first page. What is drawn is a state of the engine, at one scale; only the
 // camera moves by itself. When it rides with the swirl, the dish is at rest and its rim runs past.
 import {frameDisc, frameHead} from "../engine/engine";
-import {sectorColors, type Palette} from "../drawing/palette";
+import {sectorColors, toned, type Palette} from "../drawing/palette";
 import {drawTurns} from "../drawing/turns";
 import {head, type Frame} from "../drawing/view";
 import {sized} from "./canvas";
@@ -220,9 +220,9 @@ export class Stage {
             r = size / 2;
         made.width = made.height = size;
         const shade = context.createRadialGradient(0.62 * r, 0.55 * r, 0.1 * r, r, r, r);
-        shade.addColorStop(0, `color-mix(in srgb, ${color} ${isOiled ? 8 : 62}%, white)`);
+        shade.addColorStop(0, toned(color, "white", isOiled ? 0.92 : 0.38));
         shade.addColorStop(isOiled ? 0.3 : 0.5, color);
-        shade.addColorStop(1, `color-mix(in srgb, ${color} 74%, black)`);
+        shade.addColorStop(1, toned(color, "black", 0.26));
         context.fillStyle = shade;
         context.beginPath();
         context.arc(r, r, r, 0, 2 * Math.PI);

@@ -1,4 +1,4 @@
-// The menu of further actions on the container: move it by hand, reverse time, compare it.
+// The menu of further actions on the container: move it by hand, compare it.
 import type {Dish} from "../dish/dish";
 import type {Laboratory} from "../engine/laboratory";
 import {button, byId, element, localized} from "../elements/page";
@@ -23,8 +23,6 @@ export function experiments(
         },
         "by-hand",
     );
-    const backwards = button(texts.backwards, () => lab.send({kind: "reverse"}), "backwards");
-    backwards.title = texts.backwardsHelp;
     const compare = button(
         texts.compare,
         () => {
@@ -63,15 +61,11 @@ export function experiments(
         hand.textContent = lab.isByHand ? texts.byHandStop : texts.hand;
         hand.setAttribute("aria-pressed", String(lab.isByHand));
         document.body.classList.toggle("by-hand", lab.isByHand);
-        backwards.textContent = lab.isBackwards ? texts.forwards : texts.backwards;
-        backwards.setAttribute("aria-pressed", String(lab.isBackwards));
-        backwards.disabled = !lab.conservesEnergy();
     };
-    for (const kind of ["begin", "started", "changed", "reversed"] as const) lab.on(kind, show);
+    for (const kind of ["begin", "started", "changed"] as const) lab.on(kind, show);
     byId("transport").querySelector(".buttons")!.after(hand);
     return [
         compare,
-        backwards,
         paint,
         element("label", {title: texts.forcesHelp}, forces, ` ${texts.forces}`),
         element("label", {title: texts.keepHelp}, keep, ` ${texts.keep}`),
