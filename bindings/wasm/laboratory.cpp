@@ -562,13 +562,13 @@ EXPORTED(values) const double* values() { return numbers.data(); }
 
 /// Memory for `count` runs, five numbers each: N, ϖ/Ω, its error, the periods after the warm-up,
 /// and the effective number of samples.
-LABORATORY(runs) double* runs(std::uint32_t count) {
+EXPORTED(runs) double* runs(std::uint32_t count) {
     numbers.resize(runs_width * std::size_t{count});
     return numbers.data();
 }
 /// JSON of these runs: the estimate at each N, N_c with its error, interval and bracket (null where
 /// there is none), and the N whose sign is not certain.
-LABORATORY(crossing) std::uint32_t crossing() {
+EXPORTED(crossing) std::uint32_t crossing() {
     const std::vector<RotationPoint> curve = curve_of_runs();
     const Crossing c = find_crossing(curve);
     const SignChange* const change = c.last();

@@ -95,7 +95,9 @@ class SiteNames(InFolder):
             os.path.join(self.site, name), encoding="utf-8"
         ).read()  # noqa: E731
         at = "https://example.org/swirl/"
-        self.assertEqual(read("sitemap.txt"), f"{at}index.html\n{at}lab.html\n{at}laboratory.html\n")
+        self.assertEqual(
+            read("sitemap.txt"), f"{at}index.html\n{at}lab.html\n{at}laboratory.html\n"
+        )
         self.assertEqual(read("robots.txt"), f"Sitemap: {at}sitemap.txt\n")
         for page in ("lab.html", "laboratory.html"):
             for tag in (

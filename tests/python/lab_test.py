@@ -136,7 +136,7 @@ def test_the_page_is_found_or_the_error_has_a_hint(page, monkeypatch):
         swirl.lab(discs=5)
     built = page.parent / "a" / "build" / "lab"
     built.mkdir(parents=True)
-    (built / "index.html").write_text(PAGE, encoding="utf-8")
+    (built / "laboratory.html").write_text(PAGE, encoding="utf-8")
     assert start_of(swirl.lab(discs=5).html) == {"discs": ["5"]}
 
 

@@ -6,7 +6,7 @@ import EngineWorker from "./engine/worker?worker&inline";
 import {byId, dark, localized} from "./elements/page";
 import {paletteOf} from "./drawing/palette";
 import {DishRun} from "./first/dish";
-import {Points, reversalOf, type Values} from "./first/points";
+import {Measured, type Values} from "./first/points";
 import {drawRow, fewest, most, numberAt} from "./first/row";
 import {Stage} from "./first/stage";
 import {words, type Way} from "./first/words";
@@ -41,7 +41,7 @@ const [canvas, row] = [byId("dish"), byId("row")] as HTMLCanvasElement[] as [
     HTMLCanvasElement,
 ];
 const dish = new DishRun(newWorker()),
-    points = new Points(newWorker()),
+    measured = new Measured(newWorker()),
     stage = new Stage(canvas, moves);
 const on = new Set<Touch>();
 let n = 8;
@@ -76,7 +76,7 @@ const surface = (): string =>
         .join();
 
 /** The direction of the present number of discs, as far as it is measured. */
-const way = (): Way | undefined => points.of(surface()).get(n)?.way;
+const way = (): Way | undefined => measured.of(surface()).points.get(n)?.way;
 
 const mark = "\n"; // the place of the coloured words
 /** Writes a sentence in which the direction is in its colour. */
@@ -109,7 +109,7 @@ function describe(): void {
         "aria-valuetext",
         fill(words.discs, {n}) + (found ? `, ${words.ways[found]}` : ""),
     );
-    const reversal = reversalOf(points.of(surface()));
+    const {reversal} = measured.of(surface());
     byId("reversal").textContent = reversal
         ? fill(words.reversal, {from: reversal[0], to: reversal[1]})
         : "";
@@ -135,8 +135,8 @@ function draw(): void {
     const here = surface();
     drawRow(row, {
         n,
-        points: points.of(here),
-        others: points.surfaces.filter((each) => each !== here).map((each) => points.of(each)),
+        measured: measured.of(here),
+        others: measured.surfaces.filter((each) => each !== here).map((each) => measured.of(each)),
         palette,
     });
     say();
@@ -188,7 +188,7 @@ function change(): void {
     clearTimeout(later);
     later = setTimeout(() => {
         dish.change(values());
-        points.want(surface(), n, values());
+        measured.want(surface(), n, values());
         if (!moves) dish.skip(stillTurns);
     }, settling);
 }
@@ -305,7 +305,7 @@ dish.framed = (): void => {
     if (stage.rides && dish.last) stage.pressed.add(dish.last.contacts, dish.last.frame[10]!);
     animate();
 };
-points.changed = animate;
+measured.changed = animate;
 dish.failed = (message): void => {
     byId("sentence").textContent = message || words.noEngine;
 };
@@ -322,9 +322,9 @@ dish.ready = (): void => {
     given["seed"] ??= String(1 + Math.floor(1e6 * Math.random()));
     follow();
     dish.begin(values(), true);
-    points.want(surface(), n, values());
+    measured.want(surface(), n, values());
     if (isTouched) return;
-    for (const each of untouched) points.want("", each, {...values(), discs: String(each)});
+    for (const each of untouched) measured.want("", each, {...values(), discs: String(each)});
     setInterval(() => {
         if (isTouched || !isPlaying || document.hidden) return;
         setNumber(untouched[(untouched.indexOf(n) + 1) % untouched.length]!);

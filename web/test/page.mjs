@@ -1167,6 +1167,7 @@ await apple.addInitScript(() => {
         static isTypeSupported(type) {
             return type === "video/mp4";
         }
+        state = "recording";
         start() {}
         stop() {
             this.ondataavailable({data: new Blob(["mp4"])});

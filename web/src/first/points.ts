@@ -1,17 +1,24 @@
 // The measured points of the row: for each number of discs several runs with different seeds, in a
-// worker of its own. A run is a whole simulation, so a point is a true average.
+// worker of its own. A run is a whole simulation, and the engine evaluates them as `swirl crossing`
+// does.
+import {perRate, type Crossing, type RunNumbers} from "../engine/engine";
 import type {FromWorker, ToWorker} from "../engine/messages";
 import type {Way} from "./words";
 
 export type Values = Record<string, string>;
 
-/** Mean of ϖ/Ω over the runs, and half of its 99 % interval. */
+/** Mean of ϖ/Ω over the runs, and its direction: "still" if its sign is not certain. */
 export interface Point {
     mean: number;
-    error: number;
-    runs: number;
     way: Way;
 }
+
+/** The points of one surface, and the two numbers between which the direction changes. */
+export interface Points {
+    points: ReadonlyMap<number, Point>;
+    reversal: [number, number] | undefined;
+}
+const none: Points = {points: new Map(), reversal: undefined};
 
 /** Periods of a run, before and in its average. At a wall without friction the discs follow the swirl
  *  from the fifth period on, and gain energy: each further period has more collisions. */
@@ -21,42 +28,6 @@ const lengthOf = (given: Values): {warmup: number; periods: number} =>
         : {warmup: 20, periods: 40};
 const firstRuns = 4; // each number of discs has at least these
 const mostRuns = 16; // if the sign is not certain after fewer
-/** Student's t of 99 % for 3, 7, 11 and 15 degrees of freedom: a wrong sign would move the reversal,
- *  and each number of discs is judged up to four times. */
-const student = new Map([
-    [4, 5.841],
-    [8, 3.499],
-    [12, 3.106],
-    [16, 2.947],
-]);
-
-/** The point of these means; undefined while there are too few. Runs are added by four. */
-export function pointOf(means: readonly number[]): Point | undefined {
-    const runs = firstRuns * Math.floor(means.length / firstRuns),
-        t = student.get(runs);
-    if (t === undefined) return undefined;
-    const used = means.slice(0, runs),
-        mean = used.reduce((sum, each) => sum + each, 0) / runs;
-    const square = used.reduce((sum, each) => sum + (each - mean) ** 2, 0) / (runs - 1);
-    const error = t * Math.sqrt(square / runs);
-    return {
-        mean,
-        error,
-        runs,
-        way: Math.abs(mean) <= error ? "still" : mean > 0 ? "with" : "against",
-    };
-}
-
-/** The last number whose cluster turns with the swirl, and the next one that turns against it;
- *  undefined if there are no such neighbours, or their order is the other one. */
-export function reversalOf(points: ReadonlyMap<number, Point>): [number, number] | undefined {
-    const of = (way: Way): number[] =>
-        [...points].filter(([, point]) => point.way === way).map(([n]) => n);
-    const [plus, minus] = [of("with"), of("against")];
-    if (plus.length === 0 || minus.length === 0) return undefined;
-    const [last, next] = [Math.max(...plus), Math.min(...minus)];
-    return last < next ? [last, next] : undefined;
-}
 
 interface Job {
     surface: string;
@@ -65,12 +36,14 @@ interface Job {
     given: Values;
 }
 
-export class Points {
+export class Measured {
     /** Called when a point has changed. */
     changed: () => void = () => {};
-    private readonly means = new Map<string, Map<number, number[]>>(); // keys: surface, number
+    private readonly runs = new Map<string, Map<number, RunNumbers[]>>(); // keys: surface, number
+    private readonly found = new Map<string, Points>();
     private queue: Job[] = [];
     private busy: Job | undefined;
+    private evaluated: Job | undefined; // its surface is being evaluated
     private isReady = false;
 
     constructor(private readonly worker: Worker) {
@@ -78,37 +51,29 @@ export class Points {
     }
 
     /** The points of the discs with these frictions. */
-    of(surface: string): ReadonlyMap<number, Point> {
-        const found = new Map<number, Point>();
-        for (const [n, means] of this.means.get(surface) ?? []) {
-            const point = pointOf(means);
-            if (point) found.set(n, point);
-        }
-        return found;
+    of(surface: string): Points {
+        return this.found.get(surface) ?? none;
     }
 
     get surfaces(): string[] {
-        return [...this.means.keys()];
+        return [...this.found.keys()];
     }
 
     /** Measures this number of discs before those that were asked for earlier. */
     want(surface: string, n: number, given: Values): void {
-        const means = this.meansOf(surface, n);
-        if (means.length > 0 || this.queue.some((job) => job.surface === surface && job.n === n))
-            return;
+        if (this.runsOf(surface).has(n)) return;
+        this.runsOf(surface).set(n, []);
         this.ask(surface, n, given);
     }
 
-    private meansOf(surface: string, n: number): number[] {
-        const all = this.means.get(surface) ?? new Map<number, number[]>();
-        this.means.set(surface, all);
-        const means = all.get(n) ?? [];
-        all.set(n, means);
-        return means;
+    private runsOf(surface: string): Map<number, RunNumbers[]> {
+        const known = this.runs.get(surface) ?? new Map<number, RunNumbers[]>();
+        this.runs.set(surface, known);
+        return known;
     }
 
     private ask(surface: string, n: number, given: Values, isLast = false): void {
-        const done = this.meansOf(surface, n).length;
+        const done = this.runsOf(surface).get(n)!.length;
         const jobs = Array.from({length: firstRuns}, (_, k) => ({
             surface,
             n,
@@ -120,34 +85,63 @@ export class Points {
     }
 
     private next(): void {
-        if (!this.isReady || this.busy) return;
+        if (!this.isReady || this.busy || this.evaluated) return;
         this.busy = this.queue.shift();
         if (!this.busy) return;
         const {n, seed, given} = this.busy,
             {warmup, periods} = lengthOf(given);
-        this.worker.postMessage({
+        this.send({
             kind: "point",
             given: {...given, discs: String(n), seed: String(seed), warmup: String(warmup)},
             periods,
-        } satisfies ToWorker);
+        });
+    }
+
+    private send(message: ToWorker): void {
+        this.worker.postMessage(message);
     }
 
     private hear(data: FromWorker): void {
+        const {busy, evaluated} = this;
         if (data.kind === "ready") this.isReady = true;
-        const job = this.busy;
-        if (job && (data.kind === "point" || data.kind === "rejected")) {
+        else if (busy && (data.kind === "point" || data.kind === "rejected")) {
             this.busy = undefined;
             const mean = data.kind === "point" ? data.rotation.mean_by_time.mean : null;
-            if (mean !== null) this.take(job, mean);
+            if (mean !== null) this.take(busy, mean);
+        } else if (evaluated && data.kind === "crossing") {
+            this.evaluated = undefined;
+            this.judge(evaluated, data.crossings.mean_by_time);
         }
         this.next();
     }
 
-    private take({surface, n, given}: Job, mean: number): void {
-        const means = this.meansOf(surface, n);
-        means.push(mean);
-        const point = means.length % firstRuns === 0 ? pointOf(means) : undefined;
-        if (point?.way === "still" && means.length < mostRuns) this.ask(surface, n, given, true);
+    /** The runs of a number are evaluated four by four, with those of the other numbers. */
+    private take(job: Job, mean: number): void {
+        const {surface, n, given} = job,
+            all = this.runsOf(surface);
+        // A run has no error of its own: the engine compares the runs with each other.
+        all.get(n)!.push([n, mean, NaN, lengthOf(given).periods, 0]);
+        if (all.get(n)!.length % firstRuns !== 0) return;
+        this.evaluated = job;
+        const complete = [...all.values()].flatMap((runs) =>
+            runs.slice(0, firstRuns * Math.floor(runs.length / firstRuns)),
+        );
+        this.send({kind: "crossing", runs: perRate(() => complete)});
+    }
+
+    private judge({surface, n, given}: Job, {points, undetermined, before, after}: Crossing): void {
+        const found = new Map<number, Point>();
+        for (const [number, mean] of points) {
+            if (mean === null) continue;
+            const way = undetermined.includes(number) ? "still" : mean > 0 ? "with" : "against";
+            found.set(number, {mean, way});
+        }
+        const reversal: [number, number] | undefined =
+            before !== null && after !== null ? [before, after] : undefined;
+        this.found.set(surface, {points: found, reversal});
+        const isOpen =
+            found.get(n)?.way === "still" && this.runsOf(surface).get(n)!.length < mostRuns;
+        if (isOpen) this.ask(surface, n, given, true);
         this.changed();
     }
 }

@@ -3,7 +3,7 @@
 import {canvasFont} from "../elements/page";
 import type {Palette} from "../drawing/palette";
 import {sized} from "./canvas";
-import {reversalOf, type Point} from "./points";
+import type {Point, Points} from "./points";
 
 export const fewest = 3,
     most = 55;
@@ -21,9 +21,9 @@ export function numberAt(x: number, width: number): number {
 
 export interface Row {
     n: number;
-    points: ReadonlyMap<number, Point>;
+    measured: Points;
     /** Points of other frictions, drawn faintly. */
-    others: readonly ReadonlyMap<number, Point>[];
+    others: readonly Points[];
     palette: Palette;
 }
 
@@ -32,13 +32,13 @@ export interface Row {
 const heightOf = (rate: number, room: number): number =>
     Math.min(room, 1.6 * Math.sqrt(rate) * room);
 
-export function drawRow(canvas: HTMLCanvasElement, {n, points, others, palette}: Row): void {
+export function drawRow(canvas: HTMLCanvasElement, {n, measured, others, palette}: Row): void {
     const {context, width, height} = sized(canvas),
         zero = height / 2,
         room = zero - thumb - 3,
         step = (width - 2 * margin) / (most - fewest),
         bar = Math.max(4, 0.7 * step);
-    const reversal = reversalOf(points);
+    const {points, reversal} = measured;
     if (reversal) {
         // A bracket below the two numbers between which the direction changes.
         const [from, to] = reversal.map((number) => placeOf(number, width)) as [number, number];
@@ -61,7 +61,7 @@ export function drawRow(canvas: HTMLCanvasElement, {n, points, others, palette}:
         }
         context.globalAlpha = 1;
     };
-    for (const all of others) drawBars(all, 0.25);
+    for (const {points: all} of others) drawBars(all, 0.25);
     drawBars(points, 1);
     for (let number = fewest; number <= most; ++number) {
         const point = points.get(number);
