@@ -184,6 +184,7 @@ function follow(): void {
 /** The same discs continue with the values on the page, which are measured, too. */
 function change(): void {
     follow();
+    describe();
     animate();
     clearTimeout(later);
     later = setTimeout(() => {
