@@ -1,6 +1,7 @@
 // The event loops of the browser page, in place of src/swirl/engine/simd/event_loop_baseline.cpp.
-// Each is compiled for one size and once: run() calls step() instead of containing it. The page
-// loads faster, and every result is the same, because no search and no size changes a trajectory.
+// Each is compiled for one size and once: run() calls observe() instead of containing a loop. The
+// page loads faster, and every result is the same, because no search and no size changes a
+// trajectory.
 #include "swirl/engine/simd/event_loops.hpp"
 #include "swirl/math/cpu_width.hpp"
 
@@ -8,30 +9,16 @@ namespace swirl {
 inline namespace SWIRL_TARGET {
 namespace {
 
-template <NeighborSearch Search>
-[[gnu::noinline]] Event step_once(EngineState& shared) {
-    return step<Search>(shared);
-}
-
 /// As run() in event_loop.hpp.
 template <NeighborSearch Search>
-void run_by_steps(EngineState& shared, EventSpan& span, std::uint64_t count, std::int64_t periods,
-                  double clock) {
-    auto& state = static_cast<typename Search::State&>(shared);
-    while (span.events < count) {
-        const PendingEvent next = next_event<Search>(state);
-        if (state.periods > periods || (state.periods == periods && next.time > clock)) return;
-        const Event event = step_once<Search>(shared);
-        span.discs[span.events++ % EventSpan::capacity] = {event.i, event.j};
-        if (event.overlap > span.max_overlap) span.max_overlap = event.overlap;
-        if constexpr (CanAskToBeReplaced<Search>)
-            if (Search::should_switch_search(state)) return;
-    }
+void run_unobserved(EngineState& shared, EventSpan& span, std::uint64_t count, std::int64_t periods,
+                    double clock) {
+    observe<Search>(shared, nullptr, nullptr, span, count, periods, clock);
 }
 
 template <NeighborSearch Search>
 constexpr EventLoop loop_of() {
-    return {baseline_name, start<Search>, step_once<Search>, run_by_steps<Search>};
+    return {baseline_name, start<Search>, run_unobserved<Search>, observe<Search>};
 }
 
 constexpr EventLoop loop_of_few_discs = loop_of<AllPairs<4>>();

@@ -152,6 +152,19 @@ TEST(MisuseDeathTest, AWrongTimeStopsAdvancing) {
              EventSpan span;
              Simulation(ten_discs()).run_before(nan_value, 100, span);
          }},
+        {"swirl::Simulation::observe_before: the clock is nan.",
+         [] {
+             EventSpan span;
+             RotationSampling sampling{};
+             Simulation(ten_discs()).observe_before(nan_value, 100, sampling, span);
+         }},
+        {"swirl::Simulation::observe_before: the rotation is one of another simulation.",
+         [] {
+             EventSpan span;
+             RotationSampling sampling{};
+             sampling.rotation.discs = 20;
+             Simulation(ten_discs()).observe_before(1.0, 100, sampling, span);
+         }},
     });
 }
 

@@ -17,6 +17,8 @@ FRAME_HPP = "src/swirl/measure/m_frame.hpp"
 FRAME = "src/swirl/measure/m_frame.cpp"
 ROTATION = "src/swirl/measure/cluster_rotation.cpp"
 KERNEL = "src/swirl/measure/cluster_rotation_kernel.hpp"
+FOLLOWER = "src/swirl/physics/rotation_follower.hpp"
+OBSERVER = "src/swirl/engine/rotation_observer.hpp"
 PROFILE = "src/swirl/measure/angular_profile.cpp"
 CENTRE = "src/swirl/measure/cluster_centre.hpp"
 HULL = "src/swirl/measure/convex_hull.hpp"
@@ -398,16 +400,16 @@ MUTATIONS = [
     ),
     # The rotation of the cluster.
     (
-        ROTATION,
-        "c.velocity = c.velocity - Vec2{impulse_on_wall.x / c.mass, impulse_on_wall.y / c.mass};",
-        "c.velocity = c.velocity + Vec2{impulse_on_wall.x / c.mass, impulse_on_wall.y / c.mass};",
+        FOLLOWER,
+        "velocity = velocity - Vec2{impulse_on_wall.x / mass, impulse_on_wall.y / mass};",
+        "velocity = velocity + Vec2{impulse_on_wall.x / mass, impulse_on_wall.y / mass};",
         "the wall pushes the centre of mass outwards",
     ),
-    (ROTATION, "if (q <= closest_square) continue;", "", "a disc on the centre of mass counts"),
+    (KERNEL, "if (q <= closest_square) continue;", "", "a disc on the centre of mass counts"),
     (
-        ROTATION,
-        "mass += s.mass[i];\n        r = r + s.mass[i] * s.position(i);",
-        "mass += s.mass[i];\n        r = r + s.position(i);",
+        KERNEL,
+        "mass += masses[i];\n        r = r + masses[i] * disc.position;",
+        "mass += masses[i];\n        r = r + disc.position;",
         "few discs: the centre ignores masses",
     ),
     (
@@ -440,6 +442,14 @@ MUTATIONS = [
         "minimum = smaller_of(a.q, minimum);",
         "a disc on the centre of mass is overlooked",
     ),
+    (
+        OBSERVER,
+        "period_ended || (event.kind == EventKind::path_vertex && copies.ax != nullptr);",
+        "period_ended;",
+        "spheres that a new segment of the path accelerates are sampled with the old acceleration",
+    ),
+    (OBSERVER, "if (!s.pauses) continue;", "continue;", "a series misses all samples by time"),
+    (OBSERVER, "*s.left = s.interval;", "*s.left = 1;", "every event is sampled after the first"),
     # Profiles, shape and structure.
     (
         PROFILE,

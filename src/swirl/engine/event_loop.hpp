@@ -14,8 +14,9 @@
 // No prediction, list or measurement changes it. Therefore results do not depend on the search.
 //
 // `Search` is a neighbour search: neighbors/neighbor_search.hpp states what the loop requires from
-// it. Spheres on a floor have a fourth kind of event, which the loop for discs does not test for: a
-// sphere begins to roll.
+// it. `Observer` looks at the discs before and after each event: event_observer.hpp. Spheres on a
+// floor have a fourth kind of event, which the loop for discs does not test for: a sphere begins to
+// roll.
 //
 // One file per vector width includes this header, and with it resolve.hpp and the searches, and is
 // compiled with that width's instructions. The linker must not mix the versions up. So no function
@@ -23,12 +24,14 @@
 // tests/engine/wide_objects_test.py checks the object files.
 #pragma once
 
+#include "swirl/engine/event_observer.hpp"
 #include "swirl/engine/neighbors/engine_state.hpp"
 #include "swirl/engine/neighbors/engine_state_checks.hpp"
 #include "swirl/engine/neighbors/neighbor_search.hpp"
 #include "swirl/engine/neighbors/wall_times.hpp"
 #include "swirl/engine/pending_event.hpp"
 #include "swirl/engine/resolve.hpp"
+#include "swirl/engine/rotation_observer.hpp"
 
 namespace swirl {
 inline namespace SWIRL_TARGET {
@@ -123,24 +126,20 @@ static void start(EngineState& shared) {
     Search::start(state);
 }
 
-template <NeighborSearch Search>
-static Event step(EngineState& shared) {
-    auto& state = static_cast<typename Search::State&>(shared);
-    return execute<Search>(state, next_event<Search>(state));
-}
-
-template <NeighborSearch Search>
-static void run(EngineState& shared, EventSpan& span, std::uint64_t count, std::int64_t periods,
-                double clock) {
-    auto& state = static_cast<typename Search::State&>(shared);
+template <NeighborSearch Search, EventObserver<typename Search::State> Observer>
+SWIRL_INLINE void run_observed(typename Search::State& state, Observer observer, EventSpan& span,
+                               std::uint64_t count, std::int64_t periods, double clock) {
     std::uint64_t done = span.events;
     double max_overlap = span.max_overlap;
     while (done < count) {
         const PendingEvent next = next_event<Search>(state);
         if (state.periods > periods || (state.periods == periods && next.time > clock)) break;
+        if (!observer.before(state, next.time)) [[unlikely]]
+            break;
         const Event event = execute<Search>(state, next);
         span.discs[done++ % EventSpan::capacity] = {event.i, event.j};
         max_overlap = event.overlap > max_overlap ? event.overlap : max_overlap;
+        observer.after(state, event);
         if constexpr (CanAskToBeReplaced<Search>)
             if (Search::should_switch_search(state)) [[unlikely]]
                 break;
@@ -150,8 +149,23 @@ static void run(EngineState& shared, EventSpan& span, std::uint64_t count, std::
 }
 
 template <NeighborSearch Search>
+static void run(EngineState& shared, EventSpan& span, std::uint64_t count, std::int64_t periods,
+                double clock) {
+    auto& state = static_cast<typename Search::State&>(shared);
+    run_observed<Search>(state, NoObserver{}, span, count, periods, clock);
+}
+
+template <NeighborSearch Search>
+static void observe(EngineState& shared, RotationSampling* sampling, Event* last, EventSpan& span,
+                    std::uint64_t count, std::int64_t periods, double clock) {
+    auto& state = static_cast<typename Search::State&>(shared);
+    run_observed<Search>(state, RotationObserver(state, sampling, last), span, count, periods,
+                         clock);
+}
+
+template <NeighborSearch Search>
 constexpr EventLoop event_loop(const char* width) {
-    return {width, start<Search>, step<Search>, run<Search>};
+    return {width, start<Search>, run<Search>, observe<Search>};
 }
 
 }  // namespace SWIRL_TARGET

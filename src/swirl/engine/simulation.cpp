@@ -21,6 +21,11 @@ SWIRL_INLINE void require(bool holds, const char* problem, const char* function)
             stop(problem, function);
 }
 
+/// The largest double below this time; −1 if it is 0, since no event is earlier than 0.
+double last_before(double time) {
+    return time > 0.0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(time) - 1) : -1.0;
+}
+
 /// The scene, if it and the other arguments are valid or the caller has stopped the construction.
 const InitialState& required(const InitialState& scene, const Progress& progress,
                              const Tuning& tuning) {
@@ -62,9 +67,9 @@ void Simulation::switch_search() {
 }
 
 Event Simulation::step() {
-    const Event event = storage_->loop->step(*storage_->state);
-    if (storage_->state->should_switch_search) [[unlikely]]
-        switch_search();
+    Event event;
+    EventSpan span;
+    observe(nullptr, &event, span, 1, std::numeric_limits<std::int64_t>::max(), never);
     return event;
 }
 
@@ -73,6 +78,18 @@ void Simulation::run(EventSpan& span, std::uint64_t count, std::int64_t periods,
     for (;;) {
         storage_->loop->run(*storage_->state, span, count, periods, clock);
         if (!storage_->state->should_switch_search) return;
+        switch_search();
+    }
+}
+
+/// The same, observed. Also returns if the sampling pauses, and then the search is not replaced.
+void Simulation::observe(RotationSampling* sampling, Event* last, EventSpan& span,
+                         std::uint64_t count, std::int64_t periods, double clock) {
+    for (;;) {
+        if (sampling != nullptr) storage_->add_copies();
+        storage_->loop->observe(*storage_->state, sampling, last, span, count, periods, clock);
+        if (!storage_->state->should_switch_search) [[likely]]
+            return;
         switch_search();
     }
 }
@@ -86,10 +103,16 @@ void Simulation::run_before(double clock, std::uint64_t maximum, EventSpan& span
     require(!std::isnan(clock), "the clock is nan.", "Simulation::run_before");
     const EngineState& state = *storage_->state;
     const double end = std::min(clock, state.segments[state.segment_count - 1].end);
-    // The largest double below `end`; −1 if `end` is 0, since no event is earlier than 0.
-    const double last =
-        end > 0.0 ? std::bit_cast<double>(std::bit_cast<std::uint64_t>(end) - 1) : -1.0;
-    run(span, span.events + maximum, state.periods, last);
+    run(span, span.events + maximum, state.periods, last_before(end));
+}
+
+void Simulation::observe_before(double clock, std::uint64_t maximum, RotationSampling& sampling,
+                                EventSpan& span, Event* last) {
+    require(!std::isnan(clock), "the clock is nan.", "Simulation::observe_before");
+    require(sampling.rotation.discs == static_cast<std::ptrdiff_t>(size()),
+            "the rotation is one of another simulation.", "Simulation::observe_before");
+    observe(&sampling, last, span, span.events + maximum, storage_->state->periods,
+            last_before(clock));
 }
 
 void Simulation::advance_to(std::int64_t periods, double clock) {
@@ -228,7 +251,8 @@ void Simulation::refresh(Snapshot& s, const EventSpan& span) const {
     const std::uint32_t size = storage_->state->size;
     const auto is_vertex = [](const EventDiscs& pair) { return pair.i == 0 && pair.j == 0; };
     const EventDiscs* const end = span.discs + std::min(span.events, EventSpan::capacity);
-    const bool all = span.events > std::min<std::uint64_t>(EventSpan::capacity, size) ||
+    const bool all = s.periods != storage_->state->periods ||
+                     span.events > std::min<std::uint64_t>(EventSpan::capacity, size) ||
                      (s.on_floor && std::any_of(span.discs, end, is_vertex));
     if (all) {
         for (std::uint32_t i = 0; i < size; ++i) copy_flight(s, i, s.clock);

@@ -13,6 +13,7 @@
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/initial_state.hpp"
+#include "swirl/physics/rotation_follower.hpp"
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
@@ -104,6 +105,11 @@ class Simulation {
     /// Executes at most `maximum` events, all before this time of the present period and before its
     /// end, and adds them to the span. Stops the program if the clock is NaN.
     void run_before(double clock, std::uint64_t maximum, EventSpan& span);
+    /// The same up to and including the end of the period, and the loop samples the rotation.
+    /// Stores the last event in `last` if it is not null. Also stops the program if the rotation is
+    /// that of another number of discs.
+    void observe_before(double clock, std::uint64_t maximum, RotationSampling& sampling,
+                        EventSpan& span, Event* last = nullptr);
 
     std::int64_t periods() const;
     double clock() const;
@@ -123,7 +129,7 @@ class Simulation {
     /// discs, or the event names a disc that does not exist.
     void refresh(Snapshot& snapshot, const Event& event) const;
     /// The same after a span of events, but without the angles, which few observers need. It does
-    /// not follow orientations. The span is one that run_before() filled.
+    /// not follow orientations. The span is one that run_before() or observe_before() filled.
     void refresh(Snapshot& snapshot, const EventSpan& span) const;
     /// Updates the angles of all discs.
     void refresh_angles(Snapshot& snapshot) const;
@@ -134,6 +140,8 @@ class Simulation {
   private:
     struct Storage;
     void run(EventSpan& span, std::uint64_t count, std::int64_t periods, double clock);
+    void observe(RotationSampling* sampling, Event* last, EventSpan& span, std::uint64_t count,
+                 std::int64_t periods, double clock);
     void require_same_discs(const Snapshot& snapshot) const;
     void copy(Snapshot& snapshot, std::uint32_t i, double clock) const;
     void copy_flight(Snapshot& snapshot, std::uint32_t i, double clock) const;

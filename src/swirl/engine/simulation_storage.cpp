@@ -193,6 +193,24 @@ void Simulation::Storage::add_spheres(const InitialState& scene) {
     }
 }
 
+void Simulation::Storage::allocate_copies() {
+    const bool has_columns = std::holds_alternative<AllPairsState>(search) ||
+                             std::holds_alternative<FewSpheresState>(search);
+    if (has_columns || state->size == 0) return;
+    const std::size_t size = state->size, columns = state->spheres != nullptr ? 7 : 5;
+    copies.resize(columns * size);
+    double* const first = copies.data();
+    const auto column = [&](std::size_t k) { return first + k * size; };
+    state->copies = {.x = first,
+                     .y = column(1),
+                     .vx = column(2),
+                     .vy = column(3),
+                     .time = column(4),
+                     .ax = columns == 7 ? column(5) : nullptr,
+                     .ay = columns == 7 ? column(6) : nullptr,
+                     .events = std::numeric_limits<std::uint64_t>::max()};
+}
+
 Progress Simulation::Storage::progress() const {
     return {.periods = state->periods,
             .clock = state->clock,

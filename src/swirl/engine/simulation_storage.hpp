@@ -25,6 +25,10 @@ struct Simulation::Storage {
     Disc disc(std::uint32_t i) const;
     /// A scene from which any search continues with bitwise identical results.
     InitialState current_scene() const;
+    /// Provides EngineState::copies if the search has no columns.
+    void add_copies() {
+        if (state->copies.x == nullptr) allocate_copies();
+    }
 
     const EventLoop* loop = nullptr;
     Width width;
@@ -32,6 +36,7 @@ struct Simulation::Storage {
     std::vector<Segment> segments;
     std::vector<Species> species;
     AlignedMemory memory;
+    std::vector<double> copies;
     std::variant<AllPairsState, VerletListsState, LinkedCellsState, FewSpheresState,
                  ManySpheresState>
         search;
@@ -46,6 +51,7 @@ struct Simulation::Storage {
                         const Storage& previous);
     void add_discs(const InitialState& scene);
     void add_spheres(const InitialState& scene);
+    void allocate_copies();
     bool stopped() const { return state->stops_at(0); }
 };
 

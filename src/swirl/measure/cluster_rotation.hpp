@@ -25,11 +25,10 @@
 // point) the sample is NaN, and so is a mean that contains it. No discs: NaN.
 //
 // A sample after every event must cost less than the event. So the centre of mass is then not
-// summed up for every sample. Colliding discs push each other, so only the wall changes the
-// velocity of the centre of mass, by −J/M; between two such impulses it moves uniformly. At every
-// path vertex it is summed up again, which removes the accumulated rounding; with exact means by
-// time, once per period. (A floor accelerates spheres all the time; there the centre of mass is
-// summed up for every sample.) Eight discs are processed in parallel, always with eight partial
+// summed up for every sample, but followed (rotation_follower.hpp). At every path vertex it is
+// summed up again, which removes the accumulated rounding; with exact means by time, once per
+// period. (A floor accelerates spheres all the time; there the centre of mass is summed up for
+// every sample.) Eight discs are processed in parallel, always with eight partial
 // sums added in the same order. So the result does not depend on the vector width of the processor.
 #pragma once
 
@@ -45,6 +44,7 @@
 #include "swirl/measure/quantities.hpp"
 #include "swirl/measure/swept_angles.hpp"
 #include "swirl/physics/event.hpp"
+#include "swirl/physics/rotation_follower.hpp"
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/statistics/block_average.hpp"
 
@@ -54,6 +54,14 @@ namespace swirl {
 struct RotationSample {
     double individual, rigid;
 };
+
+inline RotationColumns rotation_columns(const Snapshot& s) {
+    RotationColumns columns{s.x.data(), s.y.data(), s.vx.data(), s.vy.data(), s.held_at.data()};
+    if (!s.are_spheres()) return columns;
+    columns.ax = s.ax.data();
+    columns.ay = s.ay.data();
+    return columns;
+}
 
 /// Both estimators for one snapshot; bitwise the same for every width.
 RotationSample cluster_rotation(const Snapshot& snapshot, Width width = Width::best);
@@ -138,11 +146,11 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     /// `clockwise`: the direction of the swirl in the snapshots to come.
     explicit ClusterRotation(Width width = Width::best, bool clockwise = false);
 
-    /// Call after every event, with the snapshot brought up to date.
+    /// Call after every event, with the snapshot brought up to date. An event loop can do that, and
+    /// sample, by itself (follower()).
     void follow(const Snapshot& snapshot, const Event& event) {
-        if (event.kind != EventKind::disc_disc && !snapshot.on_floor)
-            follow_centre(snapshot, event);
-        if (follows_angles(snapshot)) follow_angles(snapshot, event);
+        follower(snapshot).follow(rotation_columns(snapshot), event, snapshot.clock,
+                                  snapshot.periods > event.periods);
     }
     /// From a time between two events on, the individual mean by time is exact; follow() must be
     /// called after every event up to end_angles(). Only for discs, whose flights are straight.
@@ -156,15 +164,23 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     /// One sample of the average by event, after an event passed to follow(). It is fastest just
     /// before the snapshot is updated for the next event: a wide load waits for narrow stores to
     /// the same address that came shortly before.
-    RotationSample sample(const Snapshot& snapshot);
+    RotationSample sample(const Snapshot& snapshot) {
+        return in_words(follower(snapshot).sample(rotation_columns(snapshot), snapshot.clock));
+    }
     RotationSample sample(const Snapshot& snapshot, const Event& event) {
         follow(snapshot, event);
         return sample(snapshot);
     }
-    /// The same, not after every event: it sums up the centre of mass and needs no follow().
-    RotationSample sample_alone(const Snapshot& snapshot);
     /// One sample of the average by time; call it at equal time steps, or with weights.
-    RotationSample sample_by_time(const Snapshot& snapshot, double weight = 1.0);
+    RotationSample sample_by_time(const Snapshot& snapshot, double weight = 1.0) {
+        return in_words(
+            follower(snapshot).sample_by_time(rotation_columns(snapshot), snapshot.clock, weight));
+    }
+    /// Sums up the centre of mass, because the discs were moved.
+    void renew_centre(const Snapshot& snapshot);
+    /// For an event loop that follows and samples by itself the discs of which this is a snapshot.
+    /// It is valid until one of the functions here is called.
+    RotationFollower follower(const Snapshot& snapshot);
 
     /// Call at the end of every period. The samples since the last call become a block; an open
     /// block does not count. Blocks by event are weighted with their events, and blocks by time
@@ -192,16 +208,9 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
     }
 
   private:
-    struct OpenBlock {
-        double individual = 0.0, rigid = 0.0, samples = 0.0;
+    struct OpenBlock : RotationSums {
         double period = not_available;  // its sign is − if the swirl is clockwise
 
-        void add(const RotationSample& sample, double period_with_sign, double weight = 1.0) {
-            individual += weight * sample.individual;
-            rigid += weight * sample.rigid;
-            samples += weight;
-            period = period_with_sign;
-        }
         void close_into(BlockSeries& individual_series, BlockSeries& rigid_series,
                         double weight_of_a_sample);
         template <class Visitor>
@@ -210,8 +219,7 @@ class ClusterRotation : public MergedAverages<ClusterRotation> {
         }
     };
 
-    void follow_centre(const Snapshot& snapshot, const Event& event);
-    void follow_angles(const Snapshot& snapshot, const Event& event);
+    static RotationSample in_words(const RotationRates& rates) { return {rates[0], rates[1]}; }
 
     const RotationKernel* kernel_;  // fits this processor's vector width
     double swirl_sign_;             // 1, or −1 if the swirl is clockwise

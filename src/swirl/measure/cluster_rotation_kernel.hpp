@@ -12,6 +12,8 @@
 
 #include "swirl/math/real.hpp"
 #include "swirl/math/vec2.hpp"
+#include "swirl/physics/disc.hpp"
+#include "swirl/physics/rotation_follower.hpp"
 
 #if defined(__AVX512F__) && defined(__AVX512DQ__)
 #define SWIRL_ROTATION_TARGET rotation_avx512
@@ -26,47 +28,6 @@
 
 namespace swirl {
 
-/// The centre of mass of `discs` discs, stored like a disc (snapshot.hpp): its state at `held_at`.
-struct RotationCentre {
-    std::ptrdiff_t discs;
-    double held_at, mass;
-    Vec2 position, velocity;
-};
-
-/// (individual, rigid), in a register.
-typedef double RotationRates __attribute__((vector_size(16)));
-
-/// The accelerations of spheres on a floor.
-struct RotationAcceleration {
-    const double *ax, *ay;
-};
-
-/// The kernel for one vector width and at least eight discs, or for fewer in `rates_of_few`. The
-/// columns of the snapshot are separate arguments, since then they stay in registers.
-struct RotationKernel {
-    /// The centre of mass at `clock`.
-    RotationCentre (*centre)(const double* x, const double* y, const double* vx, const double* vy,
-                             const double* held_at, const double* mass, std::ptrdiff_t size,
-                             double clock);
-    /// The rotation about it. `individual` is NaN if r² ≤ `closest_square` for a disc.
-    RotationRates (*rates)(const double* x, const double* y, const double* vx, const double* vy,
-                           const double* held_at, const RotationCentre& centre, double clock,
-                           double closest_square);
-    RotationRates (*rates_of_few)(const double* x, const double* y, const double* vx,
-                                  const double* vy, const double* held_at,
-                                  const RotationCentre& centre, double clock,
-                                  double closest_square);
-    /// The same for spheres, which may be accelerated.
-    RotationCentre (*centre_of_spheres)(const double* x, const double* y, const double* vx,
-                                        const double* vy, const double* held_at, const double* mass,
-                                        std::ptrdiff_t size, double clock,
-                                        const RotationAcceleration& acceleration);
-    RotationRates (*rates_of_spheres)(const double* x, const double* y, const double* vx,
-                                      const double* vy, const double* held_at,
-                                      const RotationCentre& centre, double clock,
-                                      double closest_square,
-                                      const RotationAcceleration& acceleration);
-};
 namespace rotation_baseline {
 extern const RotationKernel kernel;
 }
@@ -175,38 +136,25 @@ SWIRL_INLINE Double2 sums(const Eight& a, const Eight& b) {
 }
 #endif
 
-struct Columns {
-    const double *x, *y, *vx, *vy, *held_at;
-};
-
 struct Discs {
     Eight x, y, vx, vy;
 };
 
-/// Discs have no acceleration.
-struct NoAcceleration {
-    SWIRL_INLINE void apply(Discs&, const Eight&, std::ptrdiff_t) const {}
-};
 /// As in Snapshot::position() and velocity().
-struct Acceleration : RotationAcceleration {
-    SWIRL_INLINE void apply(Discs& d, const Eight& elapsed, std::ptrdiff_t first) const {
-        const Eight x = Eight::load(ax + first), y = Eight::load(ay + first);
+template <bool accelerated>
+SWIRL_INLINE Discs discs(const RotationColumns& c, const Eight& clock, std::ptrdiff_t first) {
+    const Eight elapsed = clock - Eight::load(c.held_at + first);
+    const Eight vx = Eight::load(c.vx + first), vy = Eight::load(c.vy + first);
+    Discs d{Eight::load(c.x + first) + elapsed * vx, Eight::load(c.y + first) + elapsed * vy, vx,
+            vy};
+    if constexpr (accelerated) {
+        const Eight x = Eight::load(c.ax + first), y = Eight::load(c.ay + first);
         const Eight half_square = Eight::all(0.5) * elapsed * elapsed;
         d.x = d.x + half_square * x;
         d.y = d.y + half_square * y;
         d.vx = d.vx + elapsed * x;
         d.vy = d.vy + elapsed * y;
     }
-};
-
-template <class Accelerated>
-SWIRL_INLINE Discs discs(const Columns& c, const Accelerated& acceleration, const Eight& clock,
-                         std::ptrdiff_t first) {
-    const Eight elapsed = clock - Eight::load(c.held_at + first);
-    const Eight vx = Eight::load(c.vx + first), vy = Eight::load(c.vy + first);
-    Discs d{Eight::load(c.x + first) + elapsed * vx, Eight::load(c.y + first) + elapsed * vy, vx,
-            vy};
-    acceleration.apply(d, elapsed, first);
     return d;
 }
 
@@ -292,30 +240,30 @@ struct Rows {
     SWIRL_INLINE Eight counts() const { return Eight::load(last_lanes + left); }
 };
 
-template <class Accelerated>
-SWIRL_INLINE RotationCentre centre_of(const Columns& c, const double* mass, std::ptrdiff_t size,
-                                      double clock_now, const Accelerated& acceleration) {
+template <bool accelerated>
+SWIRL_INLINE RotationCentre centre_of(const RotationColumns& c, const double* mass,
+                                      std::ptrdiff_t size, double clock_now) {
     const Rows rows(size);
     const Eight clock = Eight::all(clock_now), zero = Eight::all(0.0);
     Moments m{zero, zero, zero, zero, zero};
     for (std::ptrdiff_t i = 0; i < rows.whole; i += lanes)
-        m.add(discs(c, acceleration, clock, i), Eight::load(mass + i));
+        m.add(discs<accelerated>(c, clock, i), Eight::load(mass + i));
     if (rows.left > 0)
-        m.add(discs(c, acceleration, clock, rows.last),
+        m.add(discs<accelerated>(c, clock, rows.last),
               Eight::load(mass + rows.last) * rows.counts());
     const Double2 all = sums(m.mass, m.mass);
     const Double2 r = sums(m.x, m.y) / all, v = sums(m.vx, m.vy) / all;
     return {size, clock_now, all[0], {r[0], r[1]}, {v[0], v[1]}};
 }
 
-template <class Accelerated>
-SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& about, double clock_now,
-                                    double closest_square, const Accelerated& acceleration) {
+template <bool accelerated>
+SWIRL_INLINE RotationRates rates_of(const RotationColumns& c, const RotationCentre& about,
+                                    double clock_now, double closest_square) {
     const Rows rows(about.discs);
     const Eight clock = Eight::all(clock_now);
     const Centre centre_of_mass(about, clock);
     const auto arm = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
-        return centre_of_mass.arm(discs(c, acceleration, clock, i));
+        return centre_of_mass.arm(discs<accelerated>(c, clock, i));
     };
     RateSums t(arm(0));
     std::ptrdiff_t i = lanes;
@@ -329,7 +277,7 @@ SWIRL_INLINE RotationRates rates_of(const Columns& c, const RotationCentre& abou
 }
 
 /// The other lanes are far away, so they change no sum and not the minimum.
-SWIRL_INLINE RotationRates rates_of_few_discs(const Columns& c, const RotationCentre& about,
+SWIRL_INLINE RotationRates rates_of_few_discs(const RotationColumns& c, const RotationCentre& about,
                                               double clock_now, double closest_square) {
     const auto load = [&](const double* column) __attribute__((always_inline)) {
         return Eight::load_first(column, about.discs);
@@ -347,38 +295,79 @@ SWIRL_INLINE RotationRates rates_of_few_discs(const Columns& c, const RotationCe
     return above / below;
 }
 
-RotationCentre centre(const double* x, const double* y, const double* vx, const double* vy,
-                      const double* held_at, const double* mass, std::ptrdiff_t size,
-                      double clock) {
-    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, NoAcceleration{});
-}
-RotationCentre centre_of_spheres(const double* x, const double* y, const double* vx,
-                                 const double* vy, const double* held_at, const double* mass,
-                                 std::ptrdiff_t size, double clock,
-                                 const RotationAcceleration& acceleration) {
-    return centre_of({x, y, vx, vy, held_at}, mass, size, clock, Acceleration{acceleration});
+// One disc after the other: for fewer than eight discs, and if a disc on the centre of mass must be
+// omitted.
+
+SWIRL_INLINE Flight<double> disc_at(const RotationColumns& c, std::ptrdiff_t i, double clock) {
+    const double elapsed = clock - c.held_at[i];
+    const Flight<double> d{
+        {c.x[i] + elapsed * c.vx[i], c.y[i] + elapsed * c.vy[i]}, {c.vx[i], c.vy[i]}, clock};
+    if (c.ax == nullptr) return d;
+    const double half_square = 0.5 * elapsed * elapsed;
+    return {{d.position.x + half_square * c.ax[i], d.position.y + half_square * c.ay[i]},
+            {d.velocity.x + elapsed * c.ax[i], d.velocity.y + elapsed * c.ay[i]},
+            clock};
 }
 
-RotationRates rates(const double* x, const double* y, const double* vx, const double* vy,
-                    const double* held_at, const RotationCentre& about, double clock,
+[[gnu::noinline]] RotationCentre centre_one_by_one(const RotationColumns& c, const double* masses,
+                                                   std::ptrdiff_t size, double clock) {
+    double mass = 0.0;
+    Vec2 r{0.0, 0.0}, v{0.0, 0.0};
+    for (std::ptrdiff_t i = 0; i < size; ++i) {
+        const Flight<double> disc = disc_at(c, i, clock);
+        mass += masses[i];
+        r = r + masses[i] * disc.position;
+        v = v + masses[i] * disc.velocity;
+    }
+    return {size, clock, mass, {r.x / mass, r.y / mass}, {v.x / mass, v.y / mass}};
+}
+
+[[gnu::noinline]] RotationRates rates_one_by_one(const RotationColumns& c,
+                                                 const RotationCentre& about, double clock,
+                                                 double closest_square) {
+    constexpr double not_available = __builtin_nan("");
+    if (about.discs < 2) return RotationRates{not_available, not_available};
+    const Vec2 centre = about.at(clock);
+    double individual = 0.0, counted = 0.0, angular = 0.0, square = 0.0;
+    for (std::ptrdiff_t i = 0; i < about.discs; ++i) {
+        const Flight<double> disc = disc_at(c, i, clock);
+        const Vec2 r = disc.position - centre;
+        const double l = cross(r, disc.velocity - about.velocity), q = dot(r, r);
+        angular += l;
+        square += q;
+        if (q <= closest_square) continue;
+        individual += l / q;
+        counted += 1.0;
+    }
+    return RotationRates{counted > 0.0 ? individual / counted : not_available,
+                         square > closest_square ? angular / square : not_available};
+}
+
+RotationCentre centre(const RotationColumns& c, const double* mass, std::ptrdiff_t size,
+                      double clock) {
+    if (size < lanes) return centre_one_by_one(c, mass, size, clock);
+    if (c.ax != nullptr) return centre_of<true>(c, mass, size, clock);
+    return centre_of<false>(c, mass, size, clock);
+}
+
+RotationRates rates(const RotationColumns& c, const RotationCentre& about, double clock,
                     double closest_square) {
-    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square, NoAcceleration{});
-}
-RotationRates rates_of_few(const double* x, const double* y, const double* vx, const double* vy,
-                           const double* held_at, const RotationCentre& about, double clock,
-                           double closest_square) {
-    return rates_of_few_discs({x, y, vx, vy, held_at}, about, clock, closest_square);
-}
-RotationRates rates_of_spheres(const double* x, const double* y, const double* vx, const double* vy,
-                               const double* held_at, const RotationCentre& about, double clock,
-                               double closest_square, const RotationAcceleration& acceleration) {
-    return rates_of({x, y, vx, vy, held_at}, about, clock, closest_square,
-                    Acceleration{acceleration});
+    if (about.discs < 2 || (about.discs < lanes && c.ax != nullptr))
+        return rates_one_by_one(c, about, clock, closest_square);
+    const RotationRates rates =
+        about.discs < lanes ? rates_of_few_discs(c, about, clock, closest_square)
+        : c.ax != nullptr   ? rates_of<true>(c, about, clock, closest_square)
+                            : rates_of<false>(c, about, clock, closest_square);
+    // Otherwise a disc is on the centre of mass, or a state is NaN.
+    const bool is_number = rates[0] - rates[0] == 0.0;
+    if (is_number) [[likely]]
+        return rates;
+    return rates_one_by_one(c, about, clock, closest_square);
 }
 
 }  // namespace
 
-const RotationKernel kernel{centre, rates, rates_of_few, centre_of_spheres, rates_of_spheres};
+const RotationKernel kernel{centre, rates};
 
 }  // namespace SWIRL_ROTATION_TARGET
 #endif

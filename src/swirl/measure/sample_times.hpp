@@ -36,6 +36,25 @@ class SampleTimes {
     double due(std::int64_t periods) const {
         return periods == periods_ ? std::fmax(due_, 0.0) : 0.0;
     }
+    /// For an event loop that takes the samples of a period itself, k T / n: k of the next one.
+    std::int64_t next_in_period(std::int64_t periods) const {
+        return periods != periods_ ? 0 : index_;
+    }
+    int per_period() const { return per_period_; }
+    /// The loop has taken those before this one.
+    void taken(std::int64_t periods, double period, std::int64_t next) {
+        period_ = period;
+        periods_ = periods;
+        index_ = next;
+        due_ = next_in(periods);
+    }
+    /// Moves the clock and the container of the snapshot to a time of its period.
+    static void move(Snapshot& s, const ContainerPath& path, double clock) {
+        s.clock = clock;
+        const Segment& segment = path.segment_at(clock);
+        s.container_centre = segment.position_at(clock);
+        s.container_velocity = segment.velocity_at(clock);
+    }
     template <class Visitor>
     void fields(Visitor&& visit) {
         visit(index_, periods_);
@@ -53,10 +72,7 @@ class SampleTimes {
         if (s.periods != periods_) begin_period(s.periods);
         if (due_ == undetermined) due_ = next_in(s.periods);
         if (!(due_ <= clock)) return false;
-        s.clock = due_;
-        const Segment& segment = path.segment_at(s.clock);
-        s.container_centre = segment.position_at(s.clock);
-        s.container_velocity = segment.velocity_at(s.clock);
+        move(s, path, due_);
         ++index_;
         due_ = next_in(s.periods);
         return true;

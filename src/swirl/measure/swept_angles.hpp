@@ -4,8 +4,7 @@
 //
 //   ∫ϖ_i dt = θ_i(end) − θ_i(begin) + 2π (number of full turns),  0 ≤ θ_i < 2π
 //
-// Seen from the point, the path of a disc is a polygon. A full turn ends where a side crosses the
-// ray θ = 0.
+// Full turns are counted side by side of the discs' paths (SweptSides in rotation_follower.hpp).
 #pragma once
 
 #include <cstddef>
@@ -14,6 +13,7 @@
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/math/vec2.hpp"
 #include "swirl/measure/measurement_report.hpp"
+#include "swirl/physics/rotation_follower.hpp"
 #include "swirl/physics/snapshot.hpp"
 
 namespace swirl {
@@ -30,25 +30,14 @@ class SweptAngles {
     }
     /// The mean of ϖ_i over the discs and the time since begin(); NaN for a single disc.
     double end(const Snapshot& s, const Vec2& point) {
-        fly_all(s, point);
+        for (std::size_t i = 0; i < s.size(); ++i) sides().end_side(i, s.position(i) - point);
         const double turns = turns_ + turns_from_ray(), discs = static_cast<double>(from_.size());
         from_.clear();
         return discs < 2.0 ? not_available : 2.0 * pi * turns / discs / (s.time() - begun_at_);
     }
 
-    /// A side of the path of disc i ends now, with the point at `point`.
-    SWIRL_INLINE void fly(const Snapshot& s, std::size_t i, const Vec2& point) {
-        const Vec2 from = from_[i], to = s.position(i) - point;
-        from_[i] = to;
-        if ((from.y < 0.0) == (to.y < 0.0)) return;
-        const double side = cross(from, to);
-        if (from.y < 0.0 && side > 0.0) turns_ += 1.0;
-        if (to.y < 0.0 && side < 0.0) turns_ -= 1.0;
-    }
-    /// The same for all discs, since the point changes its velocity now.
-    void fly_all(const Snapshot& s, const Vec2& point) {
-        for (std::size_t i = 0; i < s.size(); ++i) fly(s, i, point);
-    }
+    /// For whoever follows the sides from event to event.
+    SweptSides sides() { return {from_.empty() ? nullptr : from_.data(), &turns_}; }
 
     template <class Visitor>
     void fields(Visitor&& visit) {

@@ -1,4 +1,4 @@
-// Energy and mean spin of a snapshot, as reported in every result.
+// The energy of a snapshot, as reported in every result.
 #pragma once
 
 #include <cstddef>
@@ -26,13 +26,6 @@ inline Budget budget_of(const Snapshot& s, double swirl_sign = 1.0) {
         L += d.mass * cross(s.position(i), d.velocity) + d.inertia * d.spin;
     }
     return {K, K - 2.0 * pi / s.period * (swirl_sign * L)};
-}
-
-/// Mean spin of the discs, in units of Ω, positive with the swirl.
-inline double mean_spin(const Snapshot& s, double swirl_sign) {
-    double sum = 0.0;
-    for (const double spin : s.spin) sum += spin;
-    return swirl_sign * sum / static_cast<double>(s.size()) * s.period / (2.0 * pi);
 }
 
 }  // namespace swirl

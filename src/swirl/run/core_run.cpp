@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <new>
 
 #include "swirl/measure/strided.hpp"
 #include "swirl/physics/mirrored.hpp"
@@ -63,36 +62,16 @@ double CoreRun::fraction() const {
 /// Also samples the snapshot at all sample times before the event.
 void CoreRun::execute_event() {
     update_snapshot();
-    // Constructed in place: a copy would first have to wait for the stores of the event.
-    new (&event_) Event(simulation_.step());
-    sample_by_event();
-    sample_by_time(event_.clock);
-}
-
-/// At all sample times up to this one, before the next event.
-void CoreRun::sample_by_time(double clock) {
-    SampleTimes& times = follows_angles() ? few_rotation_times_ : rotation_times_;
-    while (times.next(snapshot_, path(), clock)) {
-        rotation().sample_by_time(snapshot_);
-        warm_up_.spin().add(mean_spin(snapshot_, config_.swirl_sign()));
-        if (series_.exists()) series_.sample(observed());
-    }
-    if (!samples_observations()) return;
-    while (observation_times_.next(snapshot_, path(), clock)) {
-        const Snapshot& now = observed();
-        if (observes()) observer_.sample(now);
-        series_.sample_measured(now);
-    }
+    execute(1, &event_);
+    span_.events = 0;
 }
 
 void CoreRun::pass_event() {
     simulation_.refresh(snapshot_, event_);
-    const bool period_ended =
-        event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods;
-    if (by_event_.samples_every_event() || period_ended) rotation().follow(snapshot_, event_);
-    by_event_.count(1);
     result_.max_overlap = std::max(result_.max_overlap, event_.overlap);
     if (observes_events() || series_.samples_events()) pass_to_measurements();
+    const bool period_ended =
+        event_.kind == EventKind::path_vertex && simulation_.periods() > event_.periods;
     if (period_ended) begin_period();
 }
 
@@ -116,44 +95,84 @@ bool CoreRun::samples_observations() const { return observes() || series_.measur
 
 bool CoreRun::observes_events() const { return observes() && observer_.samples_events(); }
 
-std::uint64_t CoreRun::execute_events() {
-    const bool each_event = by_event_.samples_every_event() || observes_events() ||
-                            series_.samples_events() || !snapshot_.turned.empty();
-    const double period_end = path().segments.back().end;
-    for (bool stopped = true; !each_event && stopped;) {
-        double due = rotation_times_.due(snapshot_.periods);
-        if (samples_observations()) due = std::min(due, observation_times_.due(snapshot_.periods));
-        // is_check_due() has counted the first event.
-        const std::uint64_t to_check = static_cast<std::uint64_t>(events_to_check_) + 1;
-        const std::uint64_t maximum = std::min(by_event_.left(), to_check);
-        const std::uint64_t events = execute_span(due, maximum);
-        // Ended by the next sample time?
-        stopped = events < maximum && due < period_end;
-        if (stopped) {
-            sample_by_event();
-            update_flights();
-            sample_by_time(due);
-        }
-        if (events > 0) return events;
-    }
-    execute_event();
-    pass_event();
-    return 1;
+bool CoreRun::hands_over_events() const {
+    return observes_events() || series_.samples_events() || !snapshot_.turned.empty();
 }
 
-/// Executes at most this number of events, but none after the sample time `due` or the end of the
-/// period. The snapshot is updated only if it is sampled, because that reads all discs.
-std::uint64_t CoreRun::execute_span(double due, std::uint64_t maximum) {
-    const std::uint64_t before = span_.events;
-    simulation_.run_before(due, maximum, span_);
-    const std::uint64_t events = span_.events - before;
-    if (events == 0) return 0;
+std::uint64_t CoreRun::execute_events() {
+    if (hands_over_events()) {
+        execute_event();
+        pass_event();
+        return 1;
+    }
+    // is_check_due() has counted the first event.
+    const std::uint64_t events = execute(static_cast<std::uint64_t>(events_to_check_) + 1, nullptr);
     events_to_check_ -= static_cast<int>(events) - 1;
     result_.max_overlap = std::max(result_.max_overlap, span_.max_overlap);
-    sample_by_event();
-    by_event_.count(events);
-    if (by_event_.is_due()) update_flights();
+    if (simulation_.periods() > snapshot_.periods) {
+        update_flights();
+        begin_period();
+    }
     return events;
+}
+
+/// Executes at least one event and at most this number, but none after the end of the period, and
+/// takes all samples before the last of them. The snapshot is updated only if it is sampled,
+/// because that reads all discs. The event loop itself samples the rotation and the spins.
+std::uint64_t CoreRun::execute(std::uint64_t maximum, Event* last) {
+    for (;;) {
+        const std::uint64_t before = span_.events;
+        const double due =
+            samples_observations() ? observation_times_.due(snapshot_.periods) : never;
+        RotationSampling sampling = rotation_sampling();
+        simulation_.observe_before(due, maximum, sampling, span_, last);
+        rotation_times().taken(snapshot_.periods, snapshot_.period, sampling.index);
+        const std::uint64_t events = span_.events - before;
+        if (sampling.paused_at != never)
+            sample_series(sampling.paused_at);
+        else if (events < maximum && simulation_.periods() == snapshot_.periods)
+            sample_observations(due);
+        if (events > 0) return events;
+    }
+}
+
+/// A period with exact means has fewer samples by time.
+SampleTimes& CoreRun::rotation_times() {
+    return follows_angles() ? few_rotation_times_ : rotation_times_;
+}
+
+RotationSampling CoreRun::rotation_sampling() {
+    const SampleTimes& times = rotation_times();
+    Block& spin = warm_up_.spin().open();
+    RotationSampling sampling{.rotation = rotation().follower(snapshot_),
+                              .interval = by_event_.events(),
+                              .left = &by_event_.left(),
+                              .index = times.next_in_period(snapshot_.periods),
+                              .per_period = times.per_period(),
+                              .due = never,
+                              .pauses = series_.exists(),
+                              .spin = &spin.sum,
+                              .spins = &spin.weight,
+                              .swirl_sign = config_.swirl_sign()};
+    sampling.set_due(snapshot_.period);
+    return sampling;
+}
+
+/// At a sample time of the rotation, before the next event.
+void CoreRun::sample_series(double clock) {
+    update_flights();
+    SampleTimes::move(snapshot_, path(), clock);
+    series_.sample(observed());
+}
+
+/// At all sample times of measurements up to this one, before the next event.
+void CoreRun::sample_observations(double clock) {
+    update_flights();
+    while (observation_times_.next(snapshot_, path(), clock)) {
+        const Snapshot& now = observed();
+        if (observes()) observer_.sample(now);
+        series_.sample_measured(now);
+    }
 }
 
 /// Brings the snapshot up to date after spans of events, except for the angles.
@@ -206,19 +225,8 @@ std::optional<Message> CoreRun::overlap_problem() const {
                                rounded("overlap", result_.max_overlap / smallest, 2)});
 }
 
-/// Takes the sample by event of the current state, if it is due.
-void CoreRun::sample_by_event() {
-    if (!by_event_.is_due()) return;
-    by_event_.take();
-    if (by_event_.samples_every_event())
-        rotation().sample(snapshot_);
-    else
-        rotation().sample_alone(snapshot_);
-}
-
 /// Closes the blocks of the period that has ended, and ends the warm-up or the run if it is time.
 void CoreRun::begin_period() {
-    sample_by_event();
     const bool exact = follows_angles();
     if (exact) rotation().end_angles(snapshot_);
     const std::uint64_t events = simulation_.events().total();
@@ -229,10 +237,10 @@ void CoreRun::begin_period() {
             {.period = simulation_.periods() - 1,
              .is_counted = is_warm(),
              .rotation = rotation().open_means(),
-             .rotation_weights = rotation().open_weights(by_event_.interval(), weight_by_time),
+             .rotation_weights = rotation().open_weights(by_event_.events(), weight_by_time),
              .spin = warm_up_.spin().open_mean(),
              .events = events});
-    rotation().close_block(by_event_.interval(), weight_by_time);
+    rotation().close_block(by_event_.events(), weight_by_time);
     warm_up_.spin().close_block();
     if (observes()) observer_.close_block();
     if (warm_up_.ends(config_, simulation_.periods(), fraction())) {
@@ -240,15 +248,14 @@ void CoreRun::begin_period() {
         result_.warmup_events = simulation_.events();
     }
     if (ramps_.begin_period(config_, simulation_, tuning_, snapshot_))
-        rotation().follow(snapshot_, event_);
+        rotation().renew_centre(snapshot_);
     if (complete()) events_to_check_ = 0;
     begin_angles(by_event_.begin_period(simulation_.size(), events));
 }
 
 /// The period that begins has the exact mean rotation by time if the last one had few events.
 void CoreRun::begin_angles(std::uint64_t events) {
-    if (by_event_.samples_every_event() && events < events_of_exact_means &&
-        !snapshot_.are_spheres())
+    if (by_event_.events() == 1 && events < events_of_exact_means && !snapshot_.are_spheres())
         rotation().begin_angles(snapshot_);
 }
 
@@ -272,10 +279,9 @@ SteadyState CoreRun::steady_state_of(const BlockSeries& series) const {
 }
 
 RunResult CoreRun::result() {
-    sample_by_event();
     result_.complete = complete();
     result_.rotation = corrected(rotation().estimates());
-    result_.events_per_rotation_sample = by_event_.interval();
+    result_.events_per_rotation_sample = by_event_.events();
     result_.steady = steady_state_of(rotation().mean_by_event());
     result_.steady_spin = steady_state_of(warm_up_.spin().series());
     result_.events = simulation_.events();

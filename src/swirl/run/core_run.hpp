@@ -15,7 +15,7 @@
 #include "swirl/physics/snapshot.hpp"
 #include "swirl/run/collapse.hpp"
 #include "swirl/run/config.hpp"
-#include "swirl/run/event_sampler.hpp"
+#include "swirl/run/event_interval.hpp"
 #include "swirl/run/ramp_schedule.hpp"
 #include "swirl/run/result.hpp"
 #include "swirl/run/run_observer.hpp"
@@ -43,9 +43,10 @@ class CoreRun {
 
     /// Executes the next event. The snapshot keeps the state before it until pass_event().
     void execute_event();
-    /// Executes and passes events together in the engine's loop until a sample or a check is due,
-    /// or the next event alone if each must be handed over. The results are bitwise those of
-    /// execute_event() and pass_event(), but event() is not set. Returns the number of events.
+    /// Executes and passes events together in the engine's loop until the period ends, or a sample
+    /// of a measurement or a check is due; or the next event alone if each must be handed over. The
+    /// results are bitwise those of execute_event() and pass_event(), but event() is not set.
+    /// Returns the number of events.
     std::uint64_t execute_events();
     /// Moves the snapshot to the next of these sample times, if there is one before the event.
     bool next_sample(SampleTimes& times) { return times.next(snapshot_, path(), event_.clock); }
@@ -97,21 +98,14 @@ class CoreRun {
     std::optional<Message> problem_at_the_end() const;
 
     /// Separate from the rotation after the warm-up. A run too short for a warm-up reports it.
-    const ClusterRotation& rotation_in_warmup() {
-        sample_by_event();
-        return warm_up_.rotation_before;
-    }
-    const ClusterRotation& rotation_after_warmup() {
-        sample_by_event();
-        return warm_up_.rotation_after;
-    }
+    const ClusterRotation& rotation_in_warmup() const { return warm_up_.rotation_before; }
+    const ClusterRotation& rotation_after_warmup() const { return warm_up_.rotation_after; }
     /// The result up to now, without the elapsed time. Call it between two events.
     RunResult result();
 
     /// The sums and counters of the run, for checkpoints. Progress and disc states are saved by
     /// Run, and the observation's state by its owner.
     void fields(auto&& visit) {
-        sample_by_event();
         visit(warm_up_.is_over, rotation_times_, few_rotation_times_);
         visit(warm_up_.rotation_before, warm_up_.rotation_after);
         visit(result_.warmup, result_.warmup_events, result_.max_overlap);
@@ -130,14 +124,17 @@ class CoreRun {
     RunMark mark() const { return {simulation_.events().total(), periods()}; }
     int events_until_check() const;
     std::optional<Message> overlap_problem() const;
-    void sample_by_event();
-    std::uint64_t execute_span(double due, std::uint64_t maximum);
+    bool hands_over_events() const;
+    std::uint64_t execute(std::uint64_t maximum, Event* last);
+    SampleTimes& rotation_times();
+    RotationSampling rotation_sampling();
     /// What measurements see: a clockwise dish in its mirror image.
     const Snapshot& observed();
     void pass_to_measurements();
     void update_flights();
     void update_snapshot();
-    void sample_by_time(double clock);
+    void sample_series(double clock);
+    void sample_observations(double clock);
     void begin_angles(std::uint64_t events);
     bool follows_angles() { return rotation().follows_angles(snapshot_); }
     void begin_period();
@@ -153,7 +150,7 @@ class CoreRun {
     Snapshot snapshot_, synchronised_, mirrored_;
     Event event_;
     SampleTimes rotation_times_, few_rotation_times_, observation_times_;
-    EventSampler by_event_;  // the rotation's samples by event
+    EventInterval by_event_;  // the rotation is sampled after as many events
     WarmUp warm_up_;
     int events_to_check_;  // number of events until the next check
     CollapseWatch watch_;

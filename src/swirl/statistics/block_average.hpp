@@ -268,6 +268,8 @@ class BlockMean {
         series_.add(open_.sum, open_.weight);
         open_ = {};
     }
+    /// For a loop that adds values itself, as add() does.
+    Block& open() { return open_; }
     /// The mean of the open block; NaN without a value.
     double open_mean() const {
         return open_.weight != 0.0 ? open_.sum / open_.weight : not_available;

@@ -12,6 +12,7 @@
 #include "swirl/physics/disc.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/floor.hpp"
+#include "swirl/physics/rotation_follower.hpp"
 
 namespace swirl {
 
@@ -82,6 +83,14 @@ struct ArcBound {
     double margin;  // allowance for rounding, a fraction
 };
 
+/// Copies of all discs' flights in columns, for an observer within the loop of a search that has no
+/// columns (rotation_observer.hpp). Null until there is one.
+struct CopiedFlights {
+    double *x, *y, *vx, *vy, *time;
+    double *ax, *ay;       // null for discs
+    std::uint64_t events;  // copied after this number of events
+};
+
 /// The state of a simulation, as far as every neighbour search needs it.
 struct EngineState {
     // The particles.
@@ -121,6 +130,8 @@ struct EngineState {
     bool overlapped_at_start;
     double largest_rounding;
 
+    CopiedFlights copies;
+
     // While the first predictions are made: the caller's request to stop.
     bool (*is_stopped)(const void* caller);
     const void* caller;
@@ -131,6 +142,9 @@ struct EngineState {
     SWIRL_INLINE ColdDisc& cold(std::uint32_t i) const {
         return *reinterpret_cast<ColdDisc*>(cold_discs +
                                             static_cast<std::uint64_t>(i) * cold_bytes);
+    }
+    SWIRL_INLINE std::uint64_t events() const {
+        return disc_disc + disc_wall + path_vertex + begun_to_roll;
     }
     SWIRL_INLINE bool on_arc() const { return segments[segment].turn_rate != 0.0; }
     /// For loops over all discs: polls the request to stop at every 1024th disc.
@@ -157,12 +171,14 @@ struct EventLoop {
     /// Builds the search's data and predicts all events. If the caller asks to stop, the work is
     /// left unfinished.
     void (*start)(EngineState&);
-    /// Executes the next event.
-    Event (*step)(EngineState&);
     /// Adds events to the span until it has `count` events or all up to and including the time
     /// (periods, clock). Returns early if the search asks to be replaced.
     void (*run)(EngineState&, EventSpan& span, std::uint64_t count, std::int64_t periods,
                 double clock);
+    /// The same, observed: stores the last event in `last` and follows the rotation, unless they
+    /// are null. Also returns early after a sample by time, if the sampling pauses there.
+    void (*observe)(EngineState&, RotationSampling* sampling, Event* last, EventSpan& span,
+                    std::uint64_t count, std::int64_t periods, double clock);
 };
 
 /// The columns of AllPairsState and FewSpheresState have this capacity.
