@@ -68,6 +68,16 @@ TEST(GranularTemperature, IsZeroForARigidFlowAndNaNWithoutDiscs) {
     EXPECT_NEAR(temperature.granular().mean, 0.0, 1e-13);
 }
 
+// The only velocity in a cell is its mean flow.
+TEST(GranularTemperature, IsZeroForOneDiscSeenOnce) {
+    Snapshot s = empty_container(0.3);
+    add_disc(s, {-3.0, -3.0}, {1.5, -0.5});
+    GranularTemperature temperature(R, 5, 1);
+    temperature.sample(s);
+    temperature.close_block();
+    EXPECT_NEAR(temperature.granular().mean, 0.0, 1e-14);
+}
+
 TEST(GranularTemperature, IsNaNForMissingSpins) {
     GranularTemperature temperature(R, 5, 1);
     Snapshot s = random_discs(5, 1);
