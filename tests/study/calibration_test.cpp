@@ -185,7 +185,11 @@ TEST_P(CalibrationOfTheCrossing, Slow_TheIntervalContainsTheCrossingForTwoRanges
         EXPECT_NEAR(reference, 36.0, 0.5);
     }
     std::vector<Estimate> found;
-    int contained = 0, same = 0, undecided = 0;
+    int contained = 0;
+    int contained_by_other = 0;
+    int same = 0;
+    int contradictions = 0;
+    int undecided = 0;
     for (std::size_t k = 0; k < repetitions; ++k) {
         CrossingSettings one = settings_of(1 + 1000 * k);
         one.config.events = 20'000;
@@ -205,8 +209,12 @@ TEST_P(CalibrationOfTheCrossing, Slow_TheIntervalContainsTheCrossingForTwoRanges
             continue;
         }
         const Crossing& crossing = a.crossing();
-        same += crossing.discs == b.crossing().discs && crossing.error == b.crossing().error;
+        const Crossing& other = b.crossing();
+        same += crossing.discs == other.discs && crossing.error == other.error;
+        contradictions +=
+            !(std::abs(crossing.discs - other.discs) <= std::hypot(crossing.error, other.error));
         contained += crossing.lower <= reference && reference <= crossing.upper;
+        contained_by_other += other.lower <= reference && reference <= other.upper;
         Estimate e;
         e.mean = crossing.discs;
         e.error = crossing.error;
@@ -215,16 +223,20 @@ TEST_P(CalibrationOfTheCrossing, Slow_TheIntervalContainsTheCrossingForTwoRanges
     const Calibration calibration = calibration_of(found, reference);
     const auto searches = static_cast<int>(found.size());
     std::printf(
-        "%s: N_c = %.3f +- %.3f; %d of %d intervals of 95 %% contain it (%d undecided); "
-        "scatter / error = %.2f; N = %ld to %ld and %ld to %ld find the same: %d\n",
-        GetParam().name, reference, best.crossing().error, contained, searches, undecided,
-        calibration.scatter_to_error, GetParam().from, GetParam().to, GetParam().other_from,
-        GetParam().other_to, same);
+        "%s: N_c = %.3f +- %.3f; %d and %d of %d intervals of 95 %% contain it (%d undecided); "
+        "scatter / error = %.2f; N = %ld to %ld and %ld to %ld find bitwise the same: %d, "
+        "differ by more than an error: %d\n",
+        GetParam().name, reference, best.crossing().error, contained, contained_by_other, searches,
+        undecided, calibration.scatter_to_error, GetParam().from, GetParam().to,
+        GetParam().other_from, GetParam().other_to, same, contradictions);
     // At most six misses, as for 40 intervals above.
     EXPECT_GE(contained, searches - 6);
+    EXPECT_GE(contained_by_other, searches - 6);
     EXPECT_GT(calibration.scatter_to_error, 0.5) << "the errors are far too large";
-    // By chance, one of about ten points has a wrong sign at three errors in 1 of 30 searches.
-    EXPECT_GE(same, searches - 4);
+    // The range decides where a search begins, so it can decide which runs are made: bitwise equal
+    // answers are not guaranteed. The two searches share most runs, so they must agree. Independent
+    // ones differ by more than the error of their difference in 13 of 40 pairs.
+    EXPECT_LE(contradictions, 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Settings, CalibrationOfTheCrossing,
