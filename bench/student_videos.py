@@ -295,7 +295,7 @@ def measured(*call):
     if done.returncode != 0:
         return math.nan, math.nan
     found = json.loads(done.stdout)["rotation"]["mean_by_time"]
-    return found["mean"], math.nan if found["error"] is None else found["error"]
+    return tuple(math.nan if found[name] is None else found[name] for name in ("mean", "error"))
 
 
 class Result(track_test.Score):

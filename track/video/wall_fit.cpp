@@ -40,6 +40,7 @@ struct WallRow {
 struct WallFit {
     cv::Vec4d value{};  // reach, shift and excess
     cv::Matx44d covariance;
+    bool displaced = false;  // from the rim; else the shift and the excess are zero
 };
 
 /// Where the wall is, and how the gaps to it are distributed; in radii.
@@ -101,6 +102,72 @@ std::optional<cv::Matx44d> covariance_of(const std::vector<WallRow>& rows, const
     return 2.0 * std::max(1.0, ratio) * inverse;
 }
 
+/// The logarithm.
+double likelihood_of_wall(const std::vector<WallRow>& rows, const WallModel& model) {
+    double sum = 0.0;
+    for (const WallRow& row : rows) sum += model.log_density(row);
+    return sum;
+}
+
+/// Makes `model` the most likely one. `displaced`: it may be displaced from the rim.
+void make_likely(const std::vector<WallRow>& rows, double least_error, bool displaced,
+                 WallModel& model) {
+    const double step = displaced ? 0.05 : 0.0;
+    const double step_of_excess = rows.front().factors[3] == 0.0 ? 0.0 : step;
+    auto& v = model.value;
+    maximise<7>({&v[0], &v[1], &v[2], &model.error, &model.decay, &model.share, &v[3]},
+                {0.05, step, step, 0.02, 0.1, 0.1, step_of_excess}, 0.0005, [&] {
+                    return model.allowed(least_error) ? likelihood_of_wall(rows, model) : -1e300;
+                });
+}
+
+/// The most likely wall that is concentric with the rim.
+WallModel concentric_wall(const std::vector<WallRow>& rows, double least_error,
+                          const WallModel& displaced) {
+    constexpr double farthest = 1.0;    // radii
+    constexpr double step = 0.25;       // there are local maxima,
+    constexpr double wide_error = 0.1;  // fewer with a soft onset
+    WallModel best;
+    double highest = -1e300;
+    for (double farther = -farthest; farther < farthest + 0.5 * step; farther += step) {
+        WallModel model = displaced;
+        model.value = {displaced.value[0] + farther, 0.0, 0.0, 0.0};
+        model.error = wide_error;
+        make_likely(rows, least_error, false, model);
+        const double here = likelihood_of_wall(rows, model);
+        if (here <= highest) continue;
+        highest = here;
+        best = model;
+    }
+    return best;
+}
+
+/// How often a disc comes to the wall. Positions of one visit are not independent.
+std::size_t count_visits(const std::vector<WallRow>& rows, std::size_t every) {
+    std::map<std::int64_t, std::size_t> last;
+    std::size_t visits = 0;
+    for (const WallRow& row : rows) {
+        const auto [seen, is_first] = last.try_emplace(row.disc, row.frame);
+        if (is_first || row.frame > seen->second + every) ++visits;
+        seen->second = row.frame;
+    }
+    return visits;
+}
+
+/// Few discs may visit one side more often by chance, and then agree with a wall that is far from
+/// the rim. The rim is seen in thousands of pixels: a displacement needs more evidence the larger
+/// it is.
+bool is_displaced(const std::vector<WallRow>& rows, std::size_t every, const WallModel& displaced,
+                  const WallModel& concentric) {
+    constexpr double usual = 0.15;    // radii, of a coordinate: largest shift by light, tilted rim
+    constexpr double evidence = 4.0;  // of twice the gain in likelihood, beyond the two unknowns
+    const double gain = likelihood_of_wall(rows, displaced) - likelihood_of_wall(rows, concentric);
+    const double independent = double(count_visits(rows, every)) / double(rows.size());
+    const double x = displaced.value[1] / usual;
+    const double y = displaced.value[2] / usual;
+    return 2.0 * gain * independent - x * x - y * y > evidence;
+}
+
 /// `rows` in pixels, in the order of the frames.
 std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::size_t discs) {
     // A sharp onset has many local maxima: the passes sharpen it.
@@ -127,20 +194,16 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
             row.widest = WallModel::inner - model.gap(row);
             used.push_back(row);
         }
-        const auto value = [&] {
-            if (!model.allowed(least_error)) return -1e300;
-            double sum = 0.0;
-            for (const WallRow& row : used) sum += model.log_density(row);
-            return sum;
-        };
-        auto& v = model.value;
-        maximise<7>({&v[0], &v[1], &v[2], &model.error, &model.decay, &model.share, &v[3]},
-                    {0.05, 0.05, 0.05, 0.02, 0.1, 0.1, rows.front().factors[3] == 0.0 ? 0.0 : 0.05},
-                    0.0005, value);
+        if (used.empty()) return std::nullopt;
+        make_likely(used, least_error, true, model);
     }
     const auto variance = covariance_of(used, model, every);
     if (!variance) return {};
-    return WallFit{radius * model.value, radius * radius * *variance};
+    const WallModel concentric = concentric_wall(used, least_errors.back(), model);
+    const bool displaced = is_displaced(used, every, model, concentric);
+    return WallFit{.value = radius * (displaced ? model : concentric).value,
+                   .covariance = radius * radius * *variance,
+                   .displaced = displaced};
 }
 
 /// The covariance of the shift by what discs look like: along the gradient of the brightness, it
@@ -162,7 +225,7 @@ Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit
     cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey, tracked.mixed);
     cv::Vec2d shift, displaced = found ? cv::Vec2d(found->value[1], found->value[2]) : shift;
     // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
-    if (found && !tracked.lens.tilted() && !tracked.mixed) {
+    if (found && found->displaced && !tracked.lens.tilted() && !tracked.mixed) {
         const cv::Matx22d sum = left + found->covariance.get_minor<2, 2>(1, 1);
         // If it is much larger than both allow, the rim is displaced, and not the discs.
         const cv::Vec2d part = left * displaced;

@@ -267,7 +267,7 @@ inline TwoStates two_classes(std::span<const double> values) {
         ++states.stayed[next];
         state = next;
     }
-    if (visits[0] == 0 || visits[1] == 0) return states;
+    // Both states were visited: the smallest value is below its mean, the largest one above.
     states.changes = visits[0] + visits[1] - 1;
     for (const std::size_t s : {0, 1}) {
         const double visit = static_cast<double>(states.stayed[s]) / static_cast<double>(visits[s]);

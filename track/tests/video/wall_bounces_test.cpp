@@ -128,6 +128,21 @@ TEST(WallFit, TellsAShiftTowardsTheLightFromADisplacedRim) {
     EXPECT_LT(square, 2.0);
 }
 
+// One disc touches the wall some sixteen times. The rim, seen in thousands of pixels, is right.
+TEST(WallFit, LeavesTheRimWhereItIsForFewBounces) {
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        TrackedVideo tracked = bouncing_disc(seed, 0.15);
+        tracked.rim_radius = 130.0;
+        VideoSurvey survey;
+        survey.shading = {0.55, -0.47};
+        find_wall(survey, tracked);
+        EXPECT_EQ(length(tracked.rim_shift), 0.0) << seed;
+        EXPECT_EQ(length(tracked.shading_shift), 0.0) << seed;
+        // The light may have shifted the disc, and this stays in its error.
+        EXPECT_GT(tracked.shading_shift_error, 0.0) << seed;
+    }
+}
+
 double exponential(Random& random, double mean) { return -mean * std::log(1.0 - random.uniform()); }
 
 TEST(ContactDistance, IsFoundFromNoisyDistances) {
