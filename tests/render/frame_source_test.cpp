@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "pixels.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/render/movie.hpp"
 #include "swirl/render/still.hpp"
@@ -133,6 +134,29 @@ TEST_F(Recording, DiscsMoveOnStraightLinesBetweenFrames) {
         EXPECT_NEAR(middle.position(i).y, expected.y, 1e-12);
     }
     EXPECT_NEAR(middle.time(), (1.0 + 4.5 / 20.0) * paper_period, 1e-9);
+}
+
+TEST(FrameSource, DiscsOfARecordingNeverOverlap) {
+    // Two discs exchange their places between two frames: straight lines lead through each other.
+    SnapshotSeries series;
+    series.frames = 2;
+    series.frame = [](std::uint64_t k) {
+        Snapshot s = container(0.1 * static_cast<double>(k));
+        const double side = k == 0 ? 1.0 : -1.0;
+        add_disc(s, {3.0 * side, 0.0});
+        add_disc(s, {-3.0 * side, 0.0});
+        return s;
+    };
+    const Playback playback = recorded(series, "two discs").open();
+    for (int k = 0; k <= 20; ++k) {
+        const Snapshot s = playback(0.1 * k / 20.0);
+        const Vec2 apart = s.position(0) - s.position(1);
+        EXPECT_GE(std::sqrt(dot(apart, apart)), 2.0 * 0.99) << k;
+    }
+    // Where they do not overlap, they move on the straight lines.
+    EXPECT_NEAR(playback(0.1).position(0).x, -3.0, 1e-12);
+    const Playback again = recorded(series, "two discs").open();
+    EXPECT_NEAR(again(0.1 / 6.0).position(0).x, 2.0, 1e-12);
 }
 
 TEST_F(Recording, CanBeMadeIntoAMovie) {

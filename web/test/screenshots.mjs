@@ -1,5 +1,5 @@
-// Writes the images of docs/how-to/browser_page.md: node screenshots.mjs FILE.html CHROMIUM FOLDER
-// [NAME…]. Each shows the page in one state, "preview" for link previews; the exact number of
+// Writes the images of docs/how-to/browser_page.md: node screenshots.mjs PAGES CHROMIUM FOLDER
+// [NAME…], where the folder PAGES holds both pages. Each shows a page in one state, "preview" for link previews; the exact number of
 // periods depends on the machine. ffmpeg reduces their colours.
 import {execFileSync} from "node:child_process";
 import {mkdtempSync, rmSync, statSync} from "node:fs";
@@ -8,8 +8,8 @@ import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {launch} from "./browser.mjs";
 
-const [file, executablePath, folder, ...wanted] = process.argv.slice(2);
-const address = pathToFileURL(file).href;
+const [pages, executablePath, folder, ...wanted] = process.argv.slice(2);
+const addressOf = (name) => pathToFileURL(join(pages, name)).href;
 const mostBytes = 120_000;
 
 const hasPeriods = (page, periods) =>
@@ -34,8 +34,27 @@ const setPace = (page, pace) =>
         speed.dispatchEvent(new Event("input"));
     }, pace);
 
-/** Name, query, what happens, and options of the page. */
+/** Name, query, what happens, and options of the page; the name "dish" is that of the first page. */
 const states = [
+    [
+        "dish",
+        "",
+        async (page) => {
+            for (const number of [8, 20, 28, 33, 36, 41, 44, 52, 48]) {
+                const {x, y, width, height} = await page.locator("#row").boundingBox();
+                await page.mouse.click(x + 18 + ((number - 3) * (width - 36)) / 52, y + height / 2);
+                await page.waitForFunction(
+                    (wanted) =>
+                        new RegExp(`^${wanted} discs (turn|hardly)`).test(
+                            document.getElementById("sentence").textContent,
+                        ),
+                    number,
+                );
+            }
+            await page.waitForTimeout(9000); // until the arc shows the direction
+        },
+        {viewport: {width: 1000, height: 660}},
+    ],
     ["start", "", (page) => hasPeriods(page, 68)],
     ["preview", "", (page) => hasPeriods(page, 60), {viewport: {width: 1200, height: 630}}],
     ["few", "?discs=8", (page) => hasPeriods(page, 36), {colorScheme: "dark"}],
@@ -128,7 +147,7 @@ try {
             locale: "en-GB",
             ...options,
         });
-        await page.goto(address + query);
+        await page.goto(addressOf(name === "dish" ? "index.html" : "laboratory.html") + query);
         await act(page);
         await page.evaluate(() => document.activeElement.blur());
         const raw = join(temporary, `${name}.png`),

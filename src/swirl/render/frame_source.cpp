@@ -241,7 +241,24 @@ Snapshot interpolated(const Snapshot& a, const Snapshot& b, double u, double per
     return s;
 }
 
-/// A pass over a recording: two consecutive frames, moved forwards.
+/// True if two discs overlap by more than a hundredth of a diameter. Between two stored states that
+/// are far apart, straight lines lead through other discs. Of more discs than this an image shows
+/// no such overlap, and the comparison of all pairs would take longer than the drawing.
+bool has_overlap(const Snapshot& s) {
+    constexpr std::size_t most = 2000;
+    constexpr double allowed = 0.99;
+    if (s.size() > most) return false;
+    for (std::size_t i = 0; i < s.size(); ++i)
+        for (std::size_t j = i + 1; j < s.size(); ++j) {
+            const double reach = allowed * (s.radius[i] + s.radius[j]);
+            const double dx = s.x[i] - s.x[j], dy = s.y[i] - s.y[j];
+            if (dx * dx + dy * dy < reach * reach) return true;
+        }
+    return false;
+}
+
+/// A pass over a recording: two consecutive frames, moved forwards. The states in between are on
+/// straight lines, or the nearer frame if discs would overlap there.
 class RecordedPlayback {
   public:
     explicit RecordedPlayback(const SnapshotSeries& series)
@@ -260,7 +277,10 @@ class RecordedPlayback {
         constexpr double rounding = 1e-9;
         if (share < rounding) return left_;
         if (share > 1.0 - rounding) return right_;
-        return interpolated(left_, right_, share, periods);
+        Snapshot between = interpolated(left_, right_, share, periods);
+        // Positions of a camera have errors, so discs may overlap in its frames, too.
+        if (!has_overlap(between) || has_overlap(left_) || has_overlap(right_)) return between;
+        return share < 0.5 ? left_ : right_;
     }
 
   private:
