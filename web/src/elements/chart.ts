@@ -1,6 +1,16 @@
 // The charts of the page: curves of estimates with intervals, or lines with gaps, on two linear
 // axes. Each change redraws the whole chart.
-import {canvasFont, element, ink, line as grid, localized, paper, quiet, signed} from "./page";
+import {
+    canvasFont,
+    directionColor,
+    element,
+    ink,
+    line as grid,
+    localized,
+    paper,
+    quiet,
+    signed,
+} from "./page";
 
 export interface ChartPoint {
     x: number;
@@ -16,6 +26,9 @@ export interface ChartCurve {
     points: ChartPoint[];
     /** Drawn in grey behind the others. */
     isFaint?: boolean;
+    /** Rotation rates: each point has the colour of its direction, and no line joins them, because
+     *  it would lead from one direction to the other. */
+    isRotation?: boolean;
     /** A line without points. */
     line?: {width: number; color: () => string; dash?: number[]};
 }
@@ -162,8 +175,12 @@ export class Chart {
         return canvas.toDataURL("image/png");
     }
 
-    private colorOf(k: number, {isFaint, line}: ChartCurve): string {
-        return line?.color() ?? (isFaint ? quiet() : curveColors[k % curveColors.length]!);
+    /** The colour of a curve, or of its point with this value. */
+    private colorOf(k: number, {isFaint, isRotation, line}: ChartCurve, y?: number): string {
+        if (line) return line.color();
+        if (isFaint) return quiet();
+        if (isRotation) return y === undefined ? ink() : directionColor(y);
+        return curveColors[k % curveColors.length]!;
     }
 
     private x(value: number): number {
@@ -304,7 +321,7 @@ export class Chart {
         if (band) {
             const [from, to] = band.map((each) => this.x(each)) as [number, number];
             context.globalAlpha = 0.18;
-            context.fillStyle = curveColors[0]!;
+            context.fillStyle = quiet();
             context.fillRect(from, box.top, Math.max(to - from, 2), box.height);
             context.globalAlpha = 1;
         }
@@ -337,25 +354,27 @@ export class Chart {
     }
 
     private drawCurve(context: CanvasRenderingContext2D, k: number, curve: ChartCurve): void {
-        const {points, isFaint, line} = curve;
+        const {points, isFaint, isRotation, line} = curve;
         context.strokeStyle = this.colorOf(k, curve);
         context.lineJoin = "round";
         context.lineWidth = pixelsOf(line?.width ?? 1);
         context.globalAlpha = isFaint ? 0.5 : line ? 1 : 0.8;
-        stroke(
-            context,
-            points.map(({x, y}) => [this.x(x), this.y(y)]),
-            line?.dash,
-        );
+        if (!isRotation)
+            stroke(
+                context,
+                points.map(({x, y}) => [this.x(x), this.y(y)]),
+                line?.dash,
+            );
         context.globalAlpha = isFaint ? 0.6 : 1;
         context.lineWidth = pixelsOf(1.5);
         if (!line)
             for (const {x, y, lower = y, upper = y} of points) {
+                context.strokeStyle = this.colorOf(k, curve, y);
                 stroke(context, [
                     [this.x(x), this.y(lower)],
                     [this.x(x), this.y(upper)],
                 ]);
-                this.drawShape(context, this.x(x), this.y(y), k, curve);
+                this.drawShape(context, this.x(x), this.y(y), k, curve, y);
             }
         context.globalAlpha = 1;
     }
@@ -384,9 +403,10 @@ export class Chart {
         y: number,
         k: number,
         curve: ChartCurve,
+        value?: number,
     ): void {
         const r = pixelsOf(curve.isFaint ? 2.5 : 4);
-        context.fillStyle = this.colorOf(k, curve);
+        context.fillStyle = this.colorOf(k, curve, value);
         context.beginPath();
         if (k % 3 === 1) context.rect(x - r, y - r, 2 * r, 2 * r);
         else if (k % 3 === 2) {

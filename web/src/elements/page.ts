@@ -53,6 +53,8 @@ export const line = (): string => style("--line");
 export const quiet = (): string => style("--quiet");
 export const paper = (): string => style("--paper");
 export const accent = (): string => style("--accent");
+/** The colour of a rotation rate, which is negative against the swirl. */
+export const directionColor = (rate: number): string => style(rate < 0 ? "--against" : "--with");
 export const dark = (): boolean => matchMedia("(prefers-color-scheme: dark)").matches;
 
 /** Numbers with the decimal sign of the page's language. */

@@ -296,10 +296,12 @@ export class Discovery {
                 name: this.nameOf(name),
                 points: this.plotted(points),
                 isFaint: true,
+                isRotation: true,
             }));
         curves.unshift({
             name: this.nameOf(present),
             points: this.plotted(this.settings.get(present) ?? new Map()),
+            isRotation: true,
         });
         if (present === "") curves[0]!.name = texts.discovery.yours;
         if (present === "")
@@ -310,9 +312,17 @@ export class Discovery {
                 line: {width: 3, color: quiet},
             });
         if (this.pooled.size > 0)
-            curves.push({name: texts.discovery.ofClass, points: this.plotted(this.pooled)});
+            curves.push({
+                name: texts.discovery.ofClass,
+                points: this.plotted(this.pooled),
+                isRotation: true,
+            });
         if (this.measured.length > 0)
-            curves.push({name: texts.discovery.counted, points: measuredPoints(this.measured)});
+            curves.push({
+                name: texts.discovery.counted,
+                points: measuredPoints(this.measured),
+                isRotation: true,
+            });
         const text = this.findingText();
         this.finding.textContent = text;
         const band =
