@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "swirl/math/wide.hpp"
+
 namespace swirl {
 namespace {
 
@@ -110,48 +112,139 @@ FieldValues field_values(const FieldPoint& sums, const FieldWeights& weights) {
             sums.values[14] / weights.forces};
 }
 
+namespace {
+
+/// At most as many points at once, in vectors of eight.
+constexpr std::size_t batch = 16, lanes = 8;
+constexpr std::size_t in_whole_vectors(std::size_t count) {
+    return (count + lanes - 1) / lanes * lanes;
+}
+
+/// Points of one row, seen from a place: (x, y) of point k is (x[k], y). The last vector is full.
+struct RowPoints {
+    std::size_t count;
+    double x[batch], y;
+};
+
+/// For each point q: W and its gradient.
+struct RowKernel {
+    double value[batch], gradient_x[batch], gradient_y[batch];
+};
+/// For each point q: B and B₁ of a line.
+struct RowAverages {
+    double whole[batch], weighted[batch];
+};
+
+/// What a disc adds: times W, and times each component of ∇W.
+struct DiscTerms {
+    double values[FieldPoint::disc_values], slopes[FieldPoint::disc_slopes];
+};
+
+// The same operations as CoarseKernel and line_average() have for one point, so the same bits.
+
+SWIRL_WIDE void find_kernel(const CoarseKernel& kernel, const RowPoints& q, RowKernel& found) {
+    const double square = kernel.width * kernel.width, height = kernel.height();
+    for (std::size_t k = 0; k < in_whole_vectors(q.count); ++k) {
+        const double part = 1.0 - (q.x[k] * q.x[k] + q.y * q.y) / square;
+        const double slope = part > 0.0 ? -4.0 * height * part / square : 0.0;
+        found.value[k] = part > 0.0 ? height * part * part : 0.0;
+        found.gradient_x[k] = slope * q.x[k];
+        found.gradient_y[k] = slope * q.y;
+    }
+}
+
+SWIRL_WIDE void find_averages(const CoarseKernel& kernel, const RowPoints& q, const Vec2& line,
+                              RowAverages& found) {
+    const double width_square = kernel.width * kernel.width, height = kernel.height();
+    const double a = line.x * line.x + line.y * line.y;
+    for (std::size_t k = 0; k < in_whole_vectors(q.count); ++k) {
+        const double x = q.x[k];
+        const double b = x * line.x + q.y * line.y;
+        const double c = x * x + q.y * q.y - width_square;
+        const double square = b * b - a * c;
+        const double root = __builtin_sqrt(square > 0.0 ? square : 0.0);
+        const double far = b >= 0.0 ? b + root : b - root;
+        const double one = far / a, other = c / far;
+        const double first = b >= 0.0 ? other : one, last = b >= 0.0 ? one : other;
+        // The line may be a point.
+        const double begin = a == 0.0 || !(first > 0.0) ? 0.0 : first;
+        const double end = a == 0.0 || !(last < 1.0) ? 1.0 : last;
+        const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin);
+        double whole = 0.0, weighted = 0.0;
+        for (std::size_t n = 0; n < gauss_3.size(); ++n) {
+            const double s = middle + half * gauss_3[n].at, weight = half * gauss_3[n].weight;
+            const double dx = x - s * line.x, dy = q.y - s * line.y;
+            const double part = 1.0 - (dx * dx + dy * dy) / width_square;
+            const double value = weight * (part > 0.0 ? height * part * part : 0.0);
+            whole = whole + value;
+            weighted = weighted + s * value;
+        }
+        const bool is_inside = a == 0.0 ? c < 0.0 : square > 0.0 && begin < end;
+        found.whole[k] = is_inside ? whole : 0.0;
+        found.weighted[k] = is_inside ? weighted : 0.0;
+    }
+}
+
+SWIRL_WIDE void add_disc(const DiscTerms& terms, const RowKernel& w, std::size_t count,
+                         FieldPoint* points) {
+    for (std::size_t k = 0; k < count; ++k) {
+        if (w.value[k] == 0.0) continue;
+        double* const values = points[k].values.data();
+        double* const slopes_x = points[k].slopes_x.data();
+        double* const slopes_y = points[k].slopes_y.data();
+        const double value = w.value[k], x = w.gradient_x[k], y = w.gradient_y[k];
+        for (std::size_t n = 0; n < FieldPoint::disc_values; ++n)
+            values[n] += value * terms.values[n];
+        for (std::size_t n = 0; n < FieldPoint::disc_slopes; ++n)
+            slopes_x[n] += x * terms.slopes[n];
+        for (std::size_t n = 0; n < FieldPoint::disc_slopes; ++n)
+            slopes_y[n] += y * terms.slopes[n];
+    }
+}
+
+}  // namespace
+
+/// Calls visit(points, cell) for the points in the rectangle, row by row, in batches. The points
+/// are seen from `origin`, and `cell` is that of the first.
 template <class Visit>
-void FieldGrid::for_each_point(const Vec2& low, const Vec2& high, const Visit& visit) const {
+void FieldGrid::for_each_row(const Vec2& low, const Vec2& high, const Vec2& origin,
+                             const Visit& visit) const {
     const double scale = 1.0 / grid_.cell_width();
     const auto line = [&](double at) {
         return grid_line((at + grid_.half_width) * scale - 0.5, grid_.side);
     };
     // Written so that NaN selects no point.
     if (!(low.x <= high.x && low.y <= high.y)) return;
-    const std::size_t begin = line(low.x), end = line(high.x);
-    for (std::size_t row = line(low.y); row < line(high.y); ++row)
-        for (std::size_t column = begin; column < end; ++column) visit(row * grid_.side + column);
+    const std::size_t begin = line(low.x), end = line(high.x), last_row = line(high.y);
+    const double width = grid_.cell_width();
+    const auto place = [&](std::size_t k) {
+        return (static_cast<double>(k) + 0.5) * width - grid_.half_width;
+    };
+    RowPoints points;
+    for (std::size_t row = line(low.y); row < last_row; ++row)
+        for (std::size_t column = begin; column < end; column += batch) {
+            points.count = std::min(batch, end - column);
+            for (std::size_t k = 0; k < in_whole_vectors(points.count); ++k)
+                points.x[k] = place(column + k) - origin.x;
+            points.y = place(row) - origin.y;
+            visit(points, row * grid_.side + column);
+        }
 }
 
 void FieldGrid::add(const FieldDisc& d) {
     const double w = kernel_.width, spin = d.inertia * d.spin;
     const Vec2 p = d.mass * d.velocity;
-    const std::array<double, FieldPoint::disc_values> values{1.0,
-                                                             d.mass,
-                                                             p.x,
-                                                             p.y,
-                                                             p.x * d.velocity.x,
-                                                             p.x * d.velocity.y,
-                                                             p.y * d.velocity.y,
-                                                             d.inertia,
-                                                             spin,
-                                                             spin * d.spin,
-                                                             spin * d.velocity.x,
-                                                             spin * d.velocity.y,
-                                                             pi * d.radius * d.radius,
-                                                             d.force.x,
-                                                             d.force.y};
-    const std::array<double, FieldPoint::disc_slopes> slopes{d.mass, p.x, p.y, d.inertia, spin};
-    for_each_point(d.position - Vec2{w, w}, d.position + Vec2{w, w}, [&](std::size_t cell) {
-        const Vec2 q = grid_.centre_of(cell) - d.position;
-        const double value = kernel_.value(q);
-        if (value == 0.0) return;
-        const Vec2 gradient = kernel_.gradient(q);
-        FieldPoint& point = open_.points[cell];
-        add_scaled(point.values, values, value);
-        add_scaled(point.slopes_x, slopes, gradient.x);
-        add_scaled(point.slopes_y, slopes, gradient.y);
-    });
+    const DiscTerms terms{
+        .values = {1.0, d.mass, p.x, p.y, p.x * d.velocity.x, p.x * d.velocity.y,
+                   p.y * d.velocity.y, d.inertia, spin, spin * d.spin, spin * d.velocity.x,
+                   spin * d.velocity.y, pi * d.radius * d.radius, d.force.x, d.force.y},
+        .slopes = {d.mass, p.x, p.y, d.inertia, spin}};
+    const auto add_row = [&](const RowPoints& points, std::size_t cell) {
+        RowKernel w_of;
+        find_kernel(kernel_, points, w_of);
+        add_disc(terms, w_of, points.count, &open_.points[cell]);
+    };
+    for_each_row(d.position - Vec2{w, w}, d.position + Vec2{w, w}, d.position, add_row);
 }
 
 void FieldGrid::add(const Transfer& t) {
@@ -159,16 +252,21 @@ void FieldGrid::add(const Transfer& t) {
     const Vec2 J = t.impulse, l = t.line, end = t.end();
     const Vec2 low{smaller(t.begin.x, end.x) - w, smaller(t.begin.y, end.y) - w};
     const Vec2 high{larger(t.begin.x, end.x) + w, larger(t.begin.y, end.y) + w};
-    for_each_point(low, high, [&](std::size_t cell) {
-        const Vec2 x = grid_.centre_of(cell);
-        const LineAverage b = line_average(kernel_, x - t.begin, l);
-        const double couple = t.torque_i * (b.whole - b.weighted) - t.torque_j * b.weighted;
-        const double wall = t.at_wall ? -kernel_.value(x - end) : 0.0;
-        const std::array<double, 9> values{
-            -J.x * l.x * b.whole, -J.x * l.y * b.whole, -J.y * l.x * b.whole,
-            -J.y * l.y * b.whole, l.x * couple,         l.y * couple,
-            t.loss * b.whole,     wall * J.x,           wall * J.y};
-        add_scaled(open_.points[cell].collisions, values, 1.0);
+    for_each_row(low, high, t.begin, [&](const RowPoints& points, std::size_t cell) {
+        RowAverages average;
+        find_averages(kernel_, points, l, average);
+        for (std::size_t k = 0; k < points.count; ++k) {
+            const double whole = average.whole[k], weighted = average.weighted[k];
+            const double wall = t.at_wall ? -kernel_.value(grid_.centre_of(cell + k) - end) : 0.0;
+            // Most points of the rectangle are outside the kernel, and sums would not change.
+            if (whole == 0.0 && wall == 0.0) continue;
+            const double couple = t.torque_i * (whole - weighted) - t.torque_j * weighted;
+            const std::array<double, 9> values{
+                -J.x * l.x * whole, -J.x * l.y * whole, -J.y * l.x * whole,
+                -J.y * l.y * whole, l.x * couple,       l.y * couple,
+                t.loss * whole,     wall * J.x,         wall * J.y};
+            add_scaled(open_.points[cell + k].collisions, values, 1.0);
+        }
     });
 }
 

@@ -170,9 +170,9 @@ class FieldGrid {
         FieldWeights weights;
         std::vector<FieldPoint> points;
     };
-    /// Calls visit(cell) for the points in the rectangle.
     template <class Visit>
-    void for_each_point(const Vec2& low, const Vec2& high, const Visit& visit) const;
+    void for_each_row(const Vec2& low, const Vec2& high, const Vec2& origin,
+                      const Visit& visit) const;
     static void join_neighbours(std::vector<Sums>& groups);
 
     SquareGrid grid_;
