@@ -31,7 +31,7 @@ const EventLoops event_loops_baseline = {
     loop_of<VerletLists>(),
     loop_of<LinkedCells>(),
     {loop_of_few_discs, loop_of_few_discs, loop_of_few_discs, loop_of_few_discs, loop_of_few_discs},
-    32,  // discs
+    {never, never, never, 0.385, 0.0},  // packing fractions
     {loop_of_few_spheres, loop_of_few_spheres, loop_of_few_spheres, loop_of_few_spheres},
     loop_of<ManySpheres>()};
 

@@ -64,7 +64,7 @@ const EventLoops counted_loops = {
     .lists = {baseline_name, start<VerletLists>, run_counted, observe<VerletLists>},
     .cells = {},
     .all_pairs = {},
-    .max_all_pairs = 0,
+    .all_pairs_up_to_packing = {},
     .few_spheres = {},
     .many_spheres = {}};
 

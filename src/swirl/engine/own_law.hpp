@@ -61,7 +61,7 @@ inline constexpr EventLoops loops_with_law = {
     .lists = event_loop<WithLaw<VerletLists, Law>>(baseline_name),
     .cells = {},
     .all_pairs = {},
-    .max_all_pairs = 0,
+    .all_pairs_up_to_packing = {},
     .few_spheres = {},
     .many_spheres = loop_for_spheres<Law>()};
 

@@ -28,7 +28,7 @@ const EventLoops& event_loops(const InitialState& scene, Width width) {
 /// exists.
 SearchMethod method_of(const InitialState& scene, const RadiusRange& radii, const Tuning& tuning,
                        const EventLoops& loops) {
-    const SearchMethod method = choose_search(scene, radii, tuning, loops.max_all_pairs);
+    const SearchMethod method = choose_search(scene, radii, tuning, loops);
     if (are_spheres(scene))
         return loops.few_spheres[0].run == nullptr ? SearchMethod::cells : method;
     return method == SearchMethod::cells && loops.cells.run == nullptr ? SearchMethod::lists

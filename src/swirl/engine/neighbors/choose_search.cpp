@@ -87,20 +87,32 @@ bool is_dilute(const InitialState& scene, const RadiusRange& radii) {
     return packing * (0.92 + 0.1 * in_cell) < (container_rests(scene) ? 0.6 : 0.4);
 }
 
+double packing_of(const InitialState& scene) {
+    double squares = 0.0;
+    for (const Disc& d : scene.discs) squares += d.radius * d.radius;
+    return squares / (scene.container_radius * scene.container_radius);
+}
+
+/// 0 for too many discs.
+double all_pairs_up_to_packing(const InitialState& scene, const EventLoops& loops) {
+    const std::size_t discs = scene.discs.size();
+    return discs <= max_discs_in_columns ? loops.all_pairs_up_to_packing[(discs - 1) / 8] : 0.0;
+}
+
 }  // namespace
 
 SearchMethod choose_search(const InitialState& scene, const RadiusRange& radii,
-                           const Tuning& tuning, std::uint32_t max_all_pairs) {
+                           const Tuning& tuning, const EventLoops& loops) {
     if (are_spheres(scene)) {
         const bool allowed =
             tuning.search == SearchMethod::best || tuning.search == SearchMethod::all_pairs;
         return allowed && scene.discs.size() <= max_spheres_in_columns ? SearchMethod::all_pairs
                                                                        : SearchMethod::cells;
     }
-    const bool are_few = scene.discs.size() <= max_all_pairs;
+    const double up_to_packing = all_pairs_up_to_packing(scene, loops);
     switch (tuning.search) {
         case SearchMethod::all_pairs:
-            return are_few ? SearchMethod::all_pairs : SearchMethod::lists;
+            return up_to_packing > 0.0 ? SearchMethod::all_pairs : SearchMethod::lists;
         case SearchMethod::cells:
             return cells_are_possible(scene) ? SearchMethod::cells : SearchMethod::lists;
         case SearchMethod::lists:
@@ -109,7 +121,8 @@ SearchMethod choose_search(const InitialState& scene, const RadiusRange& radii,
             break;
     }
     if (tuning.cells_per_side != 0) return SearchMethod::lists;
-    if (are_few) return SearchMethod::all_pairs;
+    if (up_to_packing > 0.0)
+        return packing_of(scene) <= up_to_packing ? SearchMethod::all_pairs : SearchMethod::lists;
     return is_dilute(scene, radii) && cells_are_possible(scene) ? SearchMethod::cells
                                                                 : SearchMethod::lists;
 }

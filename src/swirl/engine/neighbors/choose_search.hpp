@@ -30,6 +30,8 @@ struct PathExtent {
 };
 PathExtent extent_of(const ContainerPath& path);
 
+struct EventLoops;
+
 /// Widths of linked cells (linked_cells.hpp): limits, and the best for evenly spread discs.
 struct CellWidths {
     double minimum, target, maximum;
@@ -39,8 +41,8 @@ CellWidths cell_widths(const InitialState& scene, const RadiusRange& radii);
 double discs_per_cell(const InitialState& scene, double width);
 
 /// The search for a scene. `tuning.search` decides, where the scene allows that search. All pairs
-/// are tested for at most `max_all_pairs` discs.
+/// are tested if there is a loop for so many discs.
 SearchMethod choose_search(const InitialState& scene, const RadiusRange& radii,
-                           const Tuning& tuning, std::uint32_t max_all_pairs);
+                           const Tuning& tuning, const EventLoops& loops);
 
 }  // namespace swirl

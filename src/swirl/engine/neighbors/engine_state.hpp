@@ -190,8 +190,9 @@ inline constexpr std::uint32_t max_discs_in_columns = 40, max_spheres_in_columns
 struct EventLoops {
     EventLoop lists, cells;
     EventLoop all_pairs[max_discs_in_columns / 8];  // one for up to 8, 16, 24 … discs
-    // Up to this many discs, all pairs are fastest (bench/NOTES.md).
-    std::uint32_t max_all_pairs;
+    // Up to these packing fractions, all pairs are faster than lists (bench/NOTES.md). All
+    // pairs take as long at any density, but lists last longer in a dense system. 0: no loop.
+    double all_pairs_up_to_packing[max_discs_in_columns / 8];
     EventLoop few_spheres[max_spheres_in_columns / 16];  // one for up to 16, 32 … spheres
     EventLoop many_spheres;
 };

@@ -1,5 +1,6 @@
 #include "swirl/engine/simd/event_loops.hpp"
 
 namespace swirl {
-const EventLoops event_loops_avx512 = event_loops<40>("avx512");
+const EventLoops event_loops_avx512 =
+    event_loops<true>("avx512", {{never, never, never, 0.51, 0.46}});
 }  // namespace swirl

@@ -11,10 +11,15 @@
 namespace swirl {
 inline namespace SWIRL_TARGET {
 
-/// All pairs are tested for up to `max_all_pairs` discs. The loop for n discs is compiled for the
-/// next multiple of eight.
-template <std::uint32_t max_all_pairs>
-constexpr EventLoops event_loops(const char* width) {
+/// The packing fractions up to which all pairs are tested, for up to 8, 16, 24, 32 and 40 discs.
+struct PackingLimits {
+    double up_to[max_discs_in_columns / 8];
+};
+
+/// The loop for n discs is compiled for the next multiple of eight.
+template <bool every_size>
+constexpr EventLoops event_loops(const char* width, const PackingLimits& limits) {
+    const auto& [p8, p16, p24, p32, p40] = limits.up_to;
 #if defined(SWIRL_INTERNAL_CHECKS)
     // The largest size serves all: the sanitizers compile each for a minute.
     const EventLoop all_pairs = event_loop<AllPairs<max_discs_in_columns / 8>>(width);
@@ -22,19 +27,18 @@ constexpr EventLoops event_loops(const char* width) {
     return {event_loop<VerletLists>(width),
             event_loop<LinkedCells>(width),
             {all_pairs, all_pairs, all_pairs, all_pairs, all_pairs},
-            max_all_pairs,
+            {p8, p16, p24, p32, p40},
             {few_spheres, few_spheres, few_spheres, few_spheres},
             event_loop<ManySpheres>(width)};
 #else
     // These loops take the compiler longest. The rare processors without AVX2 get every second
     // size.
-    constexpr bool every_size = max_all_pairs > 32;
     return {event_loop<VerletLists>(width),
             event_loop<LinkedCells>(width),
             {event_loop<AllPairs<every_size ? 1 : 2>>(width), event_loop<AllPairs<2>>(width),
              event_loop<AllPairs<every_size ? 3 : 4>>(width), event_loop<AllPairs<4>>(width),
              event_loop<AllPairs<every_size ? 5 : 4>>(width)},
-            max_all_pairs,
+            {p8, p16, p24, p32, p40},
             {event_loop<FewSpheres<every_size ? 2 : 4>>(width), event_loop<FewSpheres<4>>(width),
              event_loop<FewSpheres<every_size ? 6 : 8>>(width), event_loop<FewSpheres<8>>(width)},
             event_loop<ManySpheres>(width)};
