@@ -140,6 +140,21 @@ def test_the_page_is_found_or_the_error_has_a_hint(page, monkeypatch):
     assert start_of(swirl.lab(discs=5).html) == {"discs": ["5"]}
 
 
+def test_the_dish_is_the_first_page(page, monkeypatch):
+    monkeypatch.delenv("SWIRL_LAB", raising=False)
+    monkeypatch.setattr(_lab, "__file__", os.fspath(page.parent / "a/b/c/swirl/_lab.py"))
+    built = page.parent / "a" / "build" / "lab"
+    built.mkdir(parents=True)
+    for name in ("index", "laboratory"):
+        (built / f"{name}.html").write_text(
+            PAGE.replace("<title>swirl", f"<title>{name}"), encoding="utf-8"
+        )
+    assert "<title>index" in swirl.lab(dish=True, discs=40, mu_wall=0).html
+    assert "<title>laboratory" in swirl.lab(discs=40).html
+    with pytest.raises(ValueError, match="the dish has no parameter 'amplitude'"):
+        swirl.lab(dish=True, amplitude=1.5)
+
+
 def test_another_file_is_rejected(page):
     page.write_text("<html></html>", encoding="utf-8")
     with pytest.raises(ValueError, match="is not the browser page"):

@@ -15,7 +15,12 @@ from ._arguments import file_name
 from ._files import exists
 from ._runs import PathName, Value
 
-_BUILT = os.path.join("build", "lab", "laboratory.html")
+# Each page is in the package, or in the folder of the sources: is it the dish?
+_PAGES = {
+    False: ("lab.html", os.path.join("build", "lab", "laboratory.html")),
+    True: ("dish.html", os.path.join("build", "lab", "index.html")),
+}
+_OF_THE_DISH = ("discs", "mu", "mu_disc", "mu_wall", "cannot_spin", "seed")
 
 
 class Lab:
@@ -53,6 +58,7 @@ def lab(
     page: Optional[PathName] = None,
     height: int = 640,
     lang: Optional[str] = None,
+    dish: bool = False,
     **parameters: Value,
 ) -> Lab:
     """Shows the browser page in a notebook, with these parameters of a run.
@@ -61,9 +67,16 @@ def lab(
 
     There is no server: the page is part of the notebook. It comes from the file `page`, from the
     environment variable SWIRL_LAB, or from the folder of the sources, where `./swirl lab` builds
-    it. `height` is that of the frame in pixels, `lang` "en" or "de"."""
+    it. `height` is that of the frame in pixels, `lang` "en" or "de". `dish` shows the first page, the
+    dish alone, instead of the Laboratory; it has only some of the parameters."""
     config = json.loads(_engine.resolve(parameters))  # rejects what a run would reject
-    path = file_name("page", _path_of(page))
+    others = [name for name in parameters if dish and name not in _OF_THE_DISH]
+    if others:
+        raise ValueError(
+            f"the dish has no parameter {others[0]!r}.\n"
+            "hint: leave dish out, for the Laboratory has all parameters."
+        )
+    path = file_name("page", _path_of(page, dish))
     with open(path, encoding="utf-8") as opened:
         document = opened.read()
     values = {
@@ -103,7 +116,7 @@ def _text_of(value: Value) -> str:
     return ":".join(str(part) for part in value) if isinstance(value, tuple) else str(value)
 
 
-def _path_of(page: Optional[PathName]) -> PathName:
+def _path_of(page: Optional[PathName], dish: bool) -> PathName:
     if page is not None:
         return page
     given = os.environ.get("SWIRL_LAB")
@@ -111,7 +124,8 @@ def _path_of(page: Optional[PathName]) -> PathName:
         return given
     package = os.path.dirname(os.path.realpath(__file__))
     sources = os.path.dirname(os.path.dirname(os.path.dirname(package)))
-    for path in (os.path.join(package, "lab.html"), os.path.join(sources, _BUILT)):
+    packaged, built = _PAGES[dish]
+    for path in (os.path.join(package, packaged), os.path.join(sources, built)):
         if exists(path):
             return path
     raise FileNotFoundError(

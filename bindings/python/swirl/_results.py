@@ -555,7 +555,7 @@ class Result:
         height, lang: as for swirl.lab()."""
         from ._lab import lab, parameters_of
 
-        return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
+        return lab(page=page, height=height, lang=lang, dish=False, **parameters_of(self.config))
 
     def __repr__(self) -> str:
         return self._headline

@@ -249,7 +249,7 @@ class Simulation:
                 "the page places the discs by the parameters, but this simulation has discs or a "
                 "path of its own.\nhint: plot() draws the discs."
             )
-        return lab(page=page, height=height, lang=lang, **parameters_of(self.config))
+        return lab(page=page, height=height, lang=lang, dish=False, **parameters_of(self.config))
 
     def plot(self, *, ax: Any = None, **style: Any) -> Any:
         """Draws the discs; returns the axes. `style` is that of swirl.plot.snapshot()."""
