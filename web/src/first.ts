@@ -5,7 +5,7 @@ import engineUrl from "../generated/dish.wasm.gz?url";
 import EngineWorker from "./engine/worker?worker&inline";
 import {byId, dark, localized} from "./elements/page";
 import {paletteOf} from "./drawing/palette";
-import {DishRun} from "./first/dish";
+import {DishRun, settled} from "./first/dish";
 import {Measured, type Values} from "./first/points";
 import {drawRow, fewest, most, numberAt} from "./first/row";
 import {Stage} from "./first/stage";
@@ -322,7 +322,7 @@ dish.ready = (): void => {
     for (const name of ["mu_wall", "mu_disc"]) if (Number(given[name]) === 0) delete given[name];
     given["seed"] ??= String(1 + Math.floor(1e6 * Math.random()));
     follow();
-    dish.begin(values(), true);
+    dish.begin(values(), moves ? settled : settled + stillTurns);
     measured.want(surface(), n, values());
     if (isTouched) return;
     for (const each of untouched) measured.want("", each, {...values(), discs: String(each)});

@@ -76,7 +76,10 @@ for (const [width, height, colorScheme, lang] of all ? every : few) {
                 high: document.documentElement.scrollHeight,
                 isCut:
                     sentence.scrollWidth > sentence.clientWidth ||
-                    sentence.scrollHeight > sentence.clientHeight,
+                    sentence.scrollHeight > sentence.clientHeight ||
+                    [...document.querySelectorAll("button")].some(
+                        (each) => each.scrollWidth > each.clientWidth,
+                    ),
                 canvases: document.querySelectorAll("canvas").length,
             };
         }, controls);
@@ -199,6 +202,14 @@ for (const [width, height, colorScheme, lang] of all ? every : few) {
         return page.$eval("#dish", (canvas) => canvas.toDataURL());
     };
     assert.equal(await images(), await images());
+    const arc = await page.$eval("#dish", (canvas) => {
+        const {data} = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        let count = 0;
+        for (let k = 0; k < data.length; k += 4)
+            count += data[k] === 31 && data[k + 1] === 99 && data[k + 2] === 166;
+        return count;
+    });
+    assert.ok(arc > 200, `the arc has ${arc} pixels`);
     await page.close();
 }
 

@@ -4,7 +4,7 @@ import type {Frame, FromWorker, ToWorker} from "../engine/messages";
 import {SectorPaint} from "../drawing/paint";
 import type {Values} from "./points";
 
-const settled = 20; // periods, the warm-up of the page
+export const settled = 20; // periods, the warm-up of the page
 
 export class DishRun {
     last: Frame | undefined;
@@ -19,7 +19,7 @@ export class DishRun {
     framed: () => void = () => {};
     failed: (message: string) => void = () => {};
     private isWaiting = true;
-    private isSkipping = false;
+    private skipped = 0; // periods before the first image
     private run = 0;
     private given: Values = {};
     private before = 0; // turns since the last change, before the averages began
@@ -33,14 +33,14 @@ export class DishRun {
         return this.last ? this.before + this.last.turns[0] : 0;
     }
 
-    /** Starts a new simulation; with `skips` it is shown when it has settled. */
-    begin(given: Values, skips = false): void {
+    /** Starts a new simulation, which is shown after this many periods. */
+    begin(given: Values, skipped = 0): void {
         this.given = given;
         this.isByHand = false;
-        this.isWaiting = this.isSkipping = true;
+        this.isWaiting = true;
+        this.skipped = skipped;
         this.send({kind: "begin", given, events: 0, run: ++this.run});
-        if (skips) this.send({kind: "skip", periods: settled});
-        else this.isSkipping = false;
+        if (skipped > 0) this.send({kind: "skip", periods: skipped});
     }
 
     /** The same discs go on with other values. */
@@ -122,11 +122,11 @@ export class DishRun {
         this.isWaiting = false;
         const isFirst = this.last === undefined,
             f = data.frame;
-        if (this.isSkipping && f[1]! < settled) {
+        if (f[1]! + f[2]! / this.period < this.skipped - 1e-6) {
             this.isWaiting = true; // the frame before the skip
             return;
         }
-        this.isSkipping = false;
+        this.skipped = 0;
         // The engine's count begins again with its averages.
         if (this.last && !this.isByHand && this.last.frame[1]! < settled && f[1]! >= settled)
             this.before += this.last.turns[0];
