@@ -2,5 +2,5 @@
 
 namespace swirl {
 const EventLoops event_loops_avx512 =
-    event_loops<true>("avx512", {{never, never, never, 0.51, 0.46}});
+    event_loops<true>("avx512", {{never, never, never, 0.60, 0.55}});
 }  // namespace swirl
