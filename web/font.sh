@@ -1,6 +1,6 @@
 #!/bin/sh
-# Makes web/src/inter.woff2, the font of the page: Inter 4.1 with the characters that the texts of the page use, and weights
-# from 400 to 700. It downloads the npm package inter-ui and the Python package fonttools; builds use the committed file.
+# Makes web/src/inter.woff2, the font of the pages: Inter 4.1 with the characters that their texts use, and weights from 400
+# to 700; and web/src/first/inter.woff2 with the few characters of the first page. It downloads the npm package inter-ui and the Python package fonttools; builds use the committed file.
 set -eu
 home=$(dirname "$(dirname "$(readlink -f "$0")")")
 temporary=$(mktemp -d)
@@ -16,3 +16,6 @@ signs='U+2013,U+2014,U+2018-201A,U+201C-201E,U+2026,U+2190-2193,U+21BA,U+21BB,U+
 tools/bin/fonttools varLib.instancer -q -o inter.ttf package/variable/InterVariable.woff2 opsz=14 wght=400:700
 tools/bin/pyftsubset inter.ttf --unicodes="$characters,$signs" --layout-features=kern,tnum --no-hinting --flavor=woff2 \
     --output-file="$home/web/src/inter.woff2"
+few='U+20-22,U+26-29,U+2B-3A,U+3F,U+41-5A,U+61-7A,U+C4,U+D6,U+DC,U+DF,U+E4,U+F6,U+FC,U+2013,U+2026,U+2212'
+tools/bin/pyftsubset "$home/web/src/inter.woff2" --unicodes="$few" --layout-features=kern,tnum --no-hinting --flavor=woff2 \
+    --output-file="$home/web/src/first/inter.woff2"

@@ -111,20 +111,16 @@ for (const [width, height, colorScheme, lang] of all ? every : few) {
     await page.emulateMedia({forcedColors: "none"});
     // Another font does not move the dish, and cuts no sentence off.
     if (width === 360)
-        await inEachFont(
-            page,
-            async (font, ofPage, high) => {
-                const now = await places();
-                assert.ok(now.wide <= ofPage && now.high <= high, `${where}, ${font}: it scrolls`);
-                assert.equal(now.isCut, false, `${where}, ${font}: the sentence is cut off`);
-                assert.deepEqual(
-                    [now.stage.top, now.stage.bottom],
-                    [stage.top, stage.bottom],
-                    `${where}, ${font}: the dish has moved`,
-                );
-            },
-            false,
-        );
+        await inEachFont(page, async (font, ofPage, high) => {
+            const now = await places();
+            assert.ok(now.wide <= ofPage && now.high <= high, `${where}, ${font}: it scrolls`);
+            assert.equal(now.isCut, false, `${where}, ${font}: the sentence is cut off`);
+            assert.deepEqual(
+                [now.stage.top, now.stage.bottom],
+                [stage.top, stage.bottom],
+                `${where}, ${font}: the dish has moved`,
+            );
+        });
     await page.close();
 }
 

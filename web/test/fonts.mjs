@@ -6,10 +6,9 @@ const ofTheSystem = ["DejaVu Sans", "Liberation Sans"]; // packages fonts-dejavu
 const widths = [320, 360, 412],
     height = 640;
 
-/** Calls look(where, width, height) in each font and width, and returns its answers by `where`.
- *  Without a font of its own, a page has those of the system only. */
-export async function inEachFont(page, look, hasOwn = true) {
-    const fonts = [...(hasOwn ? [""] : []), ...ofTheSystem];
+/** Calls look(where, width, height) in each font and width, and returns its answers by `where`. */
+export async function inEachFont(page, look) {
+    const fonts = ["", ...ofTheSystem];
     const before = page.viewportSize(),
         seen = {},
         samples = new Map();
