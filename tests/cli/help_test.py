@@ -240,6 +240,8 @@ class Help(ProgramTest):
                         allowed = set().union(*(known[name] for name in named))
                         if command:
                             allowed |= known.get(command.group(1), set())
+                    elif re.fullmatch('"--[a-z0-9-]+"', sentence):
+                        allowed = everywhere  # an argument of a call of another command
                     elif command and command.group(1) in known and command.group(1) != "sweep":
                         allowed = known[command.group(1)] | {"--help"}
                     else:  # command_sweep.cpp has `swirl collect`, too
