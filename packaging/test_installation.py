@@ -11,7 +11,7 @@ import sys
 # Options and state hash (docs/explanation/determinism.md).
 SCENES = (
     (dict(discs=48, events=1_000_000), "280b7c9750862b84"),
-    (dict(discs=28, path="circle", events=200_000), "ce3442c03e0f14d2"),
+    (dict(discs=28, motion="circle", events=200_000), "ce3442c03e0f14d2"),
     (dict(discs=300, radius=0.3, events=200_000), "1e45f8c5f23973e4"),
 )
 

@@ -117,6 +117,11 @@ class Installed(unittest.TestCase):
         if shutil.which("clang++-19"):
             self.assertEqual(self.build_examples("clang++-19"), output)
 
+    def test_program_gives_the_hashes_that_packages_are_checked_with(self):
+        checker = os.path.join(SOURCE, "packaging", "test_installation.py")
+        said = output_of("/usr/bin/python3", "-B", checker, self.program)
+        self.assertIn("expected state hashes", said)
+
     def test_program_draws_for_an_unprivileged_user_in_any_folder(self):
         before = files_below(self.prefix)
         work = os.path.join(self.folder, "work")
