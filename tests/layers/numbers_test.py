@@ -115,16 +115,18 @@ class Numbers(unittest.TestCase):
         self.assertEqual(without_source("5.0 ± 0.1", pairs, {"5.0 ± 0.1"}), [])
 
     def test_discs_have_one_n_c(self):
-        """By event, N_c is another number; its table is in docs/results/paper.md."""
+        """By event, N_c is another number; its table is in docs/results/paper.md. The output of a
+        shorter search, which a page shows, is its own."""
 
         def others(text):
             return [
                 found
-                for found in re.findall(r"N_c = ([\d.]+ ± [\d.]+)", text)
+                for found in re.findall(r"(?<!^)N_c = ([\d.]+ ± [\d.]+)", text, re.M)
                 if found != N_C and math.isclose(float(found.split()[0]), 38.4, abs_tol=0.5)
             ]
 
-        self.assertEqual(others(f"N_c = {N_C}, N_c = 38.4 ± 0.2, N_c = 43.7 ± 0.1"), ["38.4 ± 0.2"])
+        text = f"With N_c = {N_C}, N_c = 38.4 ± 0.2, N_c = 43.7 ± 0.1\nN_c = 38.5 ± 0.3: fewer"
+        self.assertEqual(others(text), ["38.4 ± 0.2"])
         for page in (*PAGES, DATA / "claims.csv"):
             with self.subTest(page=page.name):
                 self.assertEqual(others(page.read_text(encoding="utf-8")), [])
