@@ -7,12 +7,25 @@ import {readFileSync} from "node:fs";
 import look from "./src/drawing/look.json" with {type: "json"};
 import english from "./src/texts/texts.en.json" with {type: "json"};
 
-/** A text of the Laboratory, or with "dish." one of the first page. */
-const textOf = (name) =>
-    name.startsWith("dish.") ? english.dish[name.slice("dish.".length)] : english.page[name];
+/** A text of the Laboratory, with "dish." one of the first page, or with "sector." a colour. */
+const textOf = (name) => {
+    const [table, key] = name.split(".");
+    if (key === undefined) return english.page[name];
+    return {dish: english.dish, sector: look.sectors}[table]?.[key];
+};
 const signals = ({with: w, against}) => `--with:${w};--against:${against}`;
-/** The colours of the directions for style.css. */
-const colors =
+/** The colours of the directions for style.css, and an icon of both pages: three discs in a dish. */
+const discs = [
+    [10, 17, 2],
+    [19, 12, 0],
+    [19, 22, 4],
+].map(([x, y, k]) => `<circle cx='${x}' cy='${y}' r='5' fill='${look.sectors[k]}'/>`);
+const icon =
+    "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 32 32'>" +
+    "<circle cx='16' cy='16' r='14' fill='#fff' stroke='#1d2328' stroke-width='3'/>" +
+    `${discs.join("")}</svg>`;
+const headOfBoth =
+    `<link rel="icon" href="data:image/svg+xml,${encodeURIComponent(icon)}">\n` +
     `<style>:root{${signals(look.light)}}` +
     `@media (prefers-color-scheme: dark){:root{${signals(look.dark)}}}</style>`;
 
@@ -24,7 +37,7 @@ const texts = {
         order: "pre",
         handler: (html) =>
             html
-                .replace("</head>", `${colors}\n</head>`)
+                .replace("</head>", `${headOfBoth}\n</head>`)
                 .replace(/\{\{([\w.]+)\}\}/g, (_, name) => {
                     if (textOf(name) === undefined)
                         throw new Error(

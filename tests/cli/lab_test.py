@@ -701,22 +701,9 @@ class Laboratory(ProgramTest):
             picture,
             "--quiet",
         )
-        done = subprocess.run(
-            [
-                "node",
-                os.path.join(SOURCE, "web", "test", "page.mjs"),
-                self.page,
-                CHROMIUM,
-                run["state_hash"],
-                picture,
-                folder,
-                *COMPLETE,
-            ],
-            capture_output=True,
-            text=True,
-            timeout=HANG,
+        self.assert_script_passes(
+            "page.mjs", self.page, CHROMIUM, run["state_hash"], picture, folder, *COMPLETE
         )
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assertEqual(read_json(os.path.join(folder, "result.json"))["config"]["discs"], 28)
         self.assert_shows_discs(os.path.join(folder, "swirl.png"), 28)
         if shutil.which("ffprobe"):
@@ -778,6 +765,16 @@ class Laboratory(ProgramTest):
         )
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def assert_script_passes(self, script, *arguments):
+        """A script of web/test ends without a failed assertion."""
+        done = subprocess.run(
+            ["node", os.path.join(SOURCE, "web", "test", script), *arguments],
+            capture_output=True,
+            text=True,
+            timeout=HANG,
+        )
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
     def assert_shows_discs(self, path, discs):
         """The image has a light background and colours from blue to grey to orange, which cover the
         area of the discs within a fifth. (Rims and orientation marks are dark.)"""
@@ -809,36 +806,12 @@ class Laboratory(ProgramTest):
     def test_the_first_page_in_a_browser(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
-        done = subprocess.run(
-            [
-                "node",
-                os.path.join(SOURCE, "web", "test", "first.mjs"),
-                self.pages,
-                CHROMIUM,
-                *COMPLETE,
-            ],
-            capture_output=True,
-            text=True,
-            timeout=HANG,
-        )
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assert_script_passes("first.mjs", self.pages, CHROMIUM, *COMPLETE)
 
     def test_the_layout_on_phones_and_laptops(self):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
-        done = subprocess.run(
-            [
-                "node",
-                os.path.join(SOURCE, "web", "test", "sizes.mjs"),
-                self.page,
-                CHROMIUM,
-                *COMPLETE,
-            ],
-            capture_output=True,
-            text=True,
-            timeout=HANG,
-        )
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assert_script_passes("sizes.mjs", self.page, CHROMIUM, *COMPLETE)
 
     def test_the_units_of_the_page(self):
         done = subprocess.run(
@@ -940,20 +913,7 @@ class Laboratory(ProgramTest):
         if not CHROMIUM:
             self.skipTest("this test needs chromium")
         folder = os.path.dirname(self.page)
-        done = subprocess.run(
-            [
-                "node",
-                os.path.join(SOURCE, "web", "test", "panels_page.mjs"),
-                self.page,
-                CHROMIUM,
-                self.files(),
-                folder,
-            ],
-            capture_output=True,
-            text=True,
-            timeout=HANG,
-        )
-        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assert_script_passes("panels_page.mjs", self.page, CHROMIUM, self.files(), folder)
         # A point of the explorer is the mean of runs, and its row has their command lines.
         with open(os.path.join(folder, "rotation_explored.csv"), encoding="utf-8") as opened:
             rows = [row for row in csv.DictReader(opened) if row["discs"] == "8"]

@@ -145,9 +145,10 @@ def test_the_dish_is_the_first_page(page, monkeypatch):
     monkeypatch.setattr(_lab, "__file__", os.fspath(page.parent / "a/b/c/swirl/_lab.py"))
     built = page.parent / "a" / "build" / "lab"
     built.mkdir(parents=True)
-    for name in ("index", "laboratory"):
+    known = '<meta name="swirl-parameters" content="discs mu_wall">\n'
+    for name, of_its_own in (("index", known), ("laboratory", "")):
         (built / f"{name}.html").write_text(
-            PAGE.replace("<title>swirl", f"<title>{name}"), encoding="utf-8"
+            PAGE.replace("<title>swirl", f"{of_its_own}<title>{name}"), encoding="utf-8"
         )
     assert "<title>index" in swirl.lab(dish=True, discs=40, mu_wall=0).html
     assert "<title>laboratory" in swirl.lab(discs=40).html

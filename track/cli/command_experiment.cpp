@@ -266,7 +266,7 @@ void add_experiment_command(Subcommand& subcommand) {
     group = "Simulation";
     add("--replicates", call->settings.seeds, "N", "Runs for each number of discs [3]");
     add("--smooth-mu", call->settings.smooth_mu, "NUMBER",
-        "Friction coefficient of the --smooth-discs [0.1]");
+        "Friction coefficient of the smoother discs [0.1]");
     flag("--no-simulation", call->no_simulation, "Videos only, without simulations");
     group = "Output";
     add("--out", call->out, "DIR", "Folder for report and figures; valid results are reused");
@@ -277,8 +277,7 @@ void add_experiment_command(Subcommand& subcommand) {
     subcommand.set_examples({"swirl experiment N24.mp4 N36.mp4 N48.mp4 --mu 0.5 --out marbles",
                              "swirl experiment videos/*.mp4 --preset experiment --out marbles",
                              "swirl experiment rough36.mp4 rough48.mp4 --smooth-discs smooth36.mp4 "
-                             "--smooth-discs smooth48.mp4 "
-                             "--out both",
+                             "--smooth-discs smooth48.mp4 --out both",
                              "swirl experiment tracks.csv --no-simulation --out measured"});
     subcommand.callback([call] { make_experiment_report(*call); });
 }

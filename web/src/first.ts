@@ -5,8 +5,8 @@ import engineUrl from "../generated/dish.wasm.gz?url";
 import EngineWorker from "./engine/worker?worker&inline";
 import {byId, dark, localized} from "./elements/page";
 import {paletteOf} from "./drawing/palette";
-import {DishRun, settled} from "./first/dish";
-import {Measured, type Values} from "./first/points";
+import {DishRun} from "./first/dish";
+import {Measured, settled, type Values} from "./first/points";
 import {drawRow, fewest, most, numberAt} from "./first/row";
 import {Stage} from "./first/stage";
 import {words, type Way} from "./first/words";
@@ -21,8 +21,10 @@ const reach = 2.4; // largest distance by hand, in radii of a disc
 const tap = 6; // pixels; a longer way of the pointer stirs
 const stillTurns = 30; // periods that a page without motion shows
 
-/** The values that this page can set, besides the seed. */
-const ofThisPage = ["discs", "mu", "mu_disc", "mu_wall", "cannot_spin", "seed"];
+/** The parameters that this page can set: index.html has the list, for swirl.lab() and for links. */
+const ofThisPage = document
+    .querySelector<HTMLMetaElement>("[name=swirl-parameters]")!
+    .content.split(" ");
 const touches = ["rim", "discs", "hold", "ride"] as const;
 type Touch = (typeof touches)[number];
 
@@ -242,19 +244,20 @@ for (const touch of touches)
         isTouched = true;
         if (!on.delete(touch)) on.add(touch);
         if (touch !== "ride") return change();
-        stage.rides = on.has("ride");
-        dish.showContacts(stage.rides);
-        follow();
+        followRide();
         animate();
     });
+/** The camera rides if that is chosen. */
+function followRide(): void {
+    stage.rides = on.has("ride");
+    dish.showContacts(stage.rides);
+    follow();
+}
 
 // Dragging the dish stirs it; a tap stops time, or lets it go on.
 let pressed: {x: number; y: number} | undefined;
-const reduceRide = (): void => {
-    on.delete("ride");
-    stage.rides = false;
-    dish.showContacts(false);
-    follow();
+const endRide = (): void => {
+    if (on.delete("ride")) followRide();
 };
 canvas.addEventListener("pointerdown", (event) => {
     canvas.setPointerCapture(event.pointerId);
@@ -263,7 +266,7 @@ canvas.addEventListener("pointerdown", (event) => {
 canvas.addEventListener("pointermove", (event) => {
     if (!pressed || event.buttons === 0) return;
     if (!pointer && Math.hypot(event.clientX - pressed.x, event.clientY - pressed.y) < tap) return;
-    if (!pointer) reduceRide();
+    if (!pointer) endRide();
     isTouched = true;
     pointer = stage.pointAt(event);
     animate();
@@ -294,7 +297,7 @@ canvas.addEventListener("keydown", (event) => {
     } else if (event.key === "Escape") release();
     else if (to) {
         event.preventDefault();
-        if (!pointer) reduceRide();
+        if (!pointer) endRide();
         isTouched = true;
         pointer = [reach * to[0], reach * to[1]];
         animate();

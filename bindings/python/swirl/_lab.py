@@ -20,7 +20,6 @@ _PAGES = {
     False: ("lab.html", os.path.join("build", "lab", "laboratory.html")),
     True: ("dish.html", os.path.join("build", "lab", "index.html")),
 }
-_OF_THE_DISH = ("discs", "mu", "mu_disc", "mu_wall", "cannot_spin", "seed")
 
 
 class Lab:
@@ -68,17 +67,18 @@ def lab(
     There is no server: the page is part of the notebook. It comes from the file `page`, from the
     environment variable SWIRL_LAB, or from the folder of the sources, where `./swirl lab` builds
     it. `height` is that of the frame in pixels, `lang` "en" or "de". `dish` shows the first page, the
-    dish alone, instead of the Laboratory; it has only some of the parameters."""
+    dish alone, instead of the Laboratory; that page states which parameters it has."""
     config = json.loads(_engine.resolve(parameters))  # rejects what a run would reject
-    others = [name for name in parameters if dish and name not in _OF_THE_DISH]
+    path = file_name("page", _path_of(page, dish))
+    with open(path, encoding="utf-8") as opened:
+        document = opened.read()
+    known = re.search(r'<meta name="swirl-parameters" content="([^"]*)">', document)
+    others = [name for name in parameters if known and name not in known[1].split()]
     if others:
         raise ValueError(
             f"the dish has no parameter {others[0]!r}.\n"
             "hint: leave dish out, for the Laboratory has all parameters."
         )
-    path = file_name("page", _path_of(page, dish))
-    with open(path, encoding="utf-8") as opened:
-        document = opened.read()
     values = {
         name: config[name] if hasattr(value, "dtype") else _text_of(value)
         for name, value in parameters.items()

@@ -47,10 +47,8 @@ def sweep(
     count("threads", threads, 0)
     if out is None:
         if grow or frames_per_period or series:
-            raise ValueError(
-                f"{'grow' if grow else 'frames_per_period' if frames_per_period else 'series'} is given, but out, "
-                "the folder of the sweep, is not."
-            )
+            extra = "grow" if grow else "frames_per_period" if frames_per_period else "series"
+            raise ValueError(f"{extra} is given, but out, the folder of the sweep, is not.")
         with tempfile.TemporaryDirectory(prefix="swirl-sweep-") as temporary:
             return sweep(
                 temporary,

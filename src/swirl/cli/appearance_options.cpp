@@ -109,9 +109,8 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     result.path = !texts.bare;
     if (texts.turned && texts.view == "m")
         throw UsageError(
-            "--turned-angle shows the rotation in the lab frame.\nhint: use --view laboratory or "
-            "--view "
-            "both.");
+            "--turned-angle shows the rotation in the lab frame.\n"
+            "hint: use --view laboratory or --view both.");
     if (result.angles && texts.view == "laboratory")
         throw UsageError("--angles shows θ in the M-frame.\nhint: use --view m or --view both.");
     if (result.forces && texts.view == "laboratory")

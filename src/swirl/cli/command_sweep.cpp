@@ -42,8 +42,7 @@ std::vector<std::string> further_measurements(const SweepCall& call) {
     if (!call.frames.empty() || call.series || !call.chain.empty())
         throw UsageError(
             "--frames-per-period, --series and --chain cannot be used with --grow: they apply to "
-            "all runs of "
-            "a sweep or to none.");
+            "all runs of a sweep or to none.");
     if (call.measure.empty()) return {};
     return read_measurement_list(call.measure);
 }
@@ -235,8 +234,8 @@ void add_sweep_command(Subcommand& subcommand) {
         "points has a column for each parameter that varies, and may have a column replicates, the "
         "number of replicates of each row; other parameters have one value. With "
         "--grow, the given values, replicates (--replicates is their new total) and measurements "
-        "are "
-        "added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in DIR/series. "
+        "are added to the sweep in DIR. Recorded runs are in DIR/trajectories, series in "
+        "DIR/series. "
         "With --chain NAME, the runs follow each other in rising and then in falling values of "
         "NAME, and each starts from the final state of the run before it.\n");
     subcommand.set_main_options({"--discs", "--mu", "--events", "--periods", "--points",

@@ -125,16 +125,12 @@ struct RotationFollower {
     /// One sample by event, after the events passed to follow().
     SWIRL_INLINE RotationRates sample(const RotationColumns& columns, double clock) const {
         if (on_floor || centre->discs != discs) renew_centre(columns, clock);
-        const RotationRates rates = kernel->rates(columns, *centre, clock, closest_square);
-        by_event->add(rates);
-        return rates;
+        return sample_about_centre(columns, clock);
     }
     /// The same if follow() is not called after every event.
     SWIRL_INLINE RotationRates sample_alone(const RotationColumns& columns, double clock) const {
         renew_centre(columns, clock);
-        const RotationRates rates = kernel->rates(columns, *centre, clock, closest_square);
-        by_event->add(rates);
-        return rates;
+        return sample_about_centre(columns, clock);
     }
     SWIRL_INLINE RotationRates sample_by_time(const RotationColumns& columns, double clock,
                                               double weight = 1.0) const {
@@ -147,6 +143,12 @@ struct RotationFollower {
   private:
     SWIRL_INLINE void renew_centre(const RotationColumns& columns, double clock) const {
         *centre = kernel->centre(columns, mass, discs, clock);
+    }
+    SWIRL_INLINE RotationRates sample_about_centre(const RotationColumns& columns,
+                                                   double clock) const {
+        const RotationRates rates = kernel->rates(columns, *centre, clock, closest_square);
+        by_event->add(rates);
+        return rates;
     }
     /// Collisions end the flights of two discs. An impulse of the wall bends those of all discs,
     /// seen from the centre of mass.

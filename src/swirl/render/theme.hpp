@@ -1,6 +1,6 @@
 // Colour themes: a dark one for projectors and screens, a light one for paper. The colours with a
-// meaning are the same in the browser page, the figures and Python plots: a test
-// writes them to web/src/drawing/look.json and bindings/python/swirl/_look.py.
+// meaning are the same in the browser pages, the Python module and the figures, which also work
+// without the module: a test writes the copies of each (tests/render/look_test.cpp).
 #pragma once
 
 #include <array>

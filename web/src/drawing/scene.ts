@@ -6,7 +6,7 @@ import {drawLegend} from "./legend";
 import {drawMap} from "./maps";
 import {drawContacts, drawEvent, drawForces, drawHeld, drawMarks, drawNext} from "./marks";
 import {diverging, idColors, paletteOf, sectorColors, sequential, type Palette} from "./palette";
-import {drawSwirl, drawTurns} from "./turns";
+import {drawSwirl, drawTurns, drawWallMark} from "./turns";
 import {head, shown, type DrawOptions, type Frame, type View} from "./view";
 
 const swirlInset = 6; // pixels of the page, from the edge to the arrow of the swirl
@@ -136,14 +136,10 @@ function drawContainer(
     context.stroke();
     if (view === "lab" || isSmall) return;
     for (let k = 0; k < 12; ++k) {
-        const angle = (k * Math.PI) / 6 - frameAngle,
-            [c, s] = [Math.cos(angle), Math.sin(angle)];
+        const angle = (k * Math.PI) / 6 - frameAngle;
         const [from, to] = [frame.radius + 2.6 * hair, frame.radius + (k === 0 ? 11 : 7) * hair];
         context.lineWidth = (k === 0 ? 5 : 2) * hair;
-        context.beginPath();
-        context.moveTo(cx + from * c, cy + from * s);
-        context.lineTo(cx + to * c, cy + to * s);
-        context.stroke();
+        drawWallMark(context, [cx, cy], angle, from, to);
     }
 }
 

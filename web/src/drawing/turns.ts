@@ -1,6 +1,22 @@
-// Arrows and arcs around the container: the direction of the swirl, and the turns of the cluster.
+// Marks, arrows and arcs around the container: its wall, the direction of the swirl, and the turns
+// of the cluster.
 import type {Palette} from "./palette";
 import type {Frame} from "./view";
+
+/** A mark on the wall: a line away from the container's centre, between two distances from it. */
+export function drawWallMark(
+    context: CanvasRenderingContext2D,
+    [cx, cy]: readonly [number, number],
+    angle: number,
+    from: number,
+    to: number,
+): void {
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    context.beginPath();
+    context.moveTo(cx + from * c, cy + from * s);
+    context.lineTo(cx + to * c, cy + to * s);
+    context.stroke();
+}
 
 /** The direction in which the container moves on its path: an arrow at the edge of the image. */
 export function drawSwirl(

@@ -2,9 +2,7 @@
 // friction or their spins change.
 import type {Frame, FromWorker, ToWorker} from "../engine/messages";
 import {SectorPaint} from "../drawing/paint";
-import type {Values} from "./points";
-
-export const settled = 20; // periods, the warm-up of the page
+import {settled, type Values} from "./points";
 
 export class DishRun {
     last: Frame | undefined;

@@ -7,6 +7,8 @@ import type {Way} from "./words";
 
 export type Values = Record<string, string>;
 
+export const settled = 20; // periods, the warm-up of the page
+
 /** Mean of ϖ/Ω over the runs, and its direction: "still" if its sign is not certain. */
 export interface Point {
     mean: number;
@@ -21,11 +23,11 @@ export interface Points {
 const none: Points = {points: new Map(), reversal: undefined};
 
 /** Periods of a run, before and in its average. At a wall without friction the discs follow the swirl
- *  from the fifth period on, and gain energy: each further period has more collisions. */
+ *  from the fifth period on. They gain energy there, so each further period has more collisions. */
 const lengthOf = (given: Values): {warmup: number; periods: number} =>
     Number(given["mu_wall"]) === 0 && given["mu_wall"] !== undefined
         ? {warmup: 5, periods: 10}
-        : {warmup: 20, periods: 40};
+        : {warmup: settled, periods: 40};
 const firstRuns = 4; // each number of discs has at least these
 const mostRuns = 16; // if the sign is not certain after fewer
 

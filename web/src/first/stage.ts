@@ -2,7 +2,7 @@
 // camera moves by itself. When it rides with the swirl, the dish is at rest and its rim runs past.
 import {frameDisc, frameHead} from "../engine/engine";
 import {sectorColors, toned, type Palette} from "../drawing/palette";
-import {drawTurns} from "../drawing/turns";
+import {drawTurns, drawWallMark} from "../drawing/turns";
 import {head, type Frame} from "../drawing/view";
 import {sized} from "./canvas";
 
@@ -146,13 +146,8 @@ export class Stage {
         context.strokeStyle = palette.floor;
         context.lineWidth = 0.14;
         for (let k = 0; k < 36; ++k) {
-            const a = (k * Math.PI) / 18,
-                [c, s] = [Math.cos(a), Math.sin(a)],
-                [from, to] = [radius + 0.06, radius + (k % 9 ? 0.24 : 0.4)];
-            context.beginPath();
-            context.moveTo(cx + from * c, cy + from * s);
-            context.lineTo(cx + to * c, cy + to * s);
-            context.stroke();
+            const to = radius + (k % 9 ? 0.24 : 0.4);
+            drawWallMark(context, frame.centre, (k * Math.PI) / 18, radius + 0.06, to);
         }
     }
 

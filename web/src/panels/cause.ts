@@ -3,8 +3,7 @@
 // minimal model.
 import type {Laboratory} from "../engine/laboratory";
 import {button, dark, element, localized, signed, withError} from "../elements/page";
-import {paletteOf} from "../drawing/palette";
-import {sectorColors} from "../drawing/palette";
+import {paletteOf, sectorColors} from "../drawing/palette";
 import {fill, texts} from "../texts/texts";
 
 /** γ = |ϖ_M|/Ω of a rigid disc that rolls on the wall with the slip parameter `slip`; ϖ/Ω = 1 − γ.
