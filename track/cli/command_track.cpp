@@ -170,9 +170,10 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
         "  lens        distortion {}{}\n  camera      {}\n{}{}"
         "  filled in   {} positions\n  error       from {}\n",
         video.width, video.height, species_text(video),
-        video.mixed    ? "dark and bright on the"
-        : video.bright ? "bright on a dark"
-                       : "dark on a bright",
+        video.reading.plane ? "of several colours on the"
+        : video.mixed       ? "dark and bright on the"
+        : video.bright      ? "bright on a dark"
+                            : "dark on a bright",
         with_error(video.container_radius, video.container_radius_error),
         with_error(ratio, std::hypot(video.container_radius_error, ratio * video.radius_error) /
                               video.radius),

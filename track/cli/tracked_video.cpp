@@ -98,9 +98,10 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
         {"fps", video.fps > 0.0 ? Json(video.fps) : Json(nullptr)},
         {"discs", video.number},
         {"species", species},
-        {"discs_are", video.mixed    ? "dark and bright"
-                      : video.bright ? "bright"
-                                     : "dark"},
+        {"discs_are", video.reading.plane ? "coloured"
+                      : video.mixed       ? "dark and bright"
+                      : video.bright      ? "bright"
+                                          : "dark"},
         {"container",
          {{"radius", video.container_radius},
           {"radius_error", video.container_radius_error},

@@ -103,6 +103,14 @@ class OtherVideos(InFolder):
         self.assertEqual(camera["discs_are"], "dark and bright")
         self.assertGreater(camera["quality"]["position_error"], 0.7)
 
+    def test_spheres_of_two_colours_are_tracked(self):
+        # In grey the red spheres hardly differ from the floor, and 18 of 20 are counted. Colours
+        # are recorded with half the resolution of grey.
+        camera, _ = self.check_tracks(
+            0.4, floor=52.0, colours=((170, 25, 30), (225, 190, 60)), seed=4
+        )
+        self.assertEqual(camera["discs_are"], "coloured")
+
     def test_dropped_and_duplicated_frames_are_rejected(self):
         for word, faults in some(
             (

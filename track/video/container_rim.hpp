@@ -32,6 +32,9 @@ struct ContainerRim {
     std::optional<Lens> lens;       // set if the camera is tilted, or its shutter rolls
 };
 
+/// Blur of frames in which the rim is searched, pixels, against noise: its edge is broader.
+inline constexpr double rim_blur = 1.0;
+
 /// `frames` spread over the video. Throws Failure with the likely cause if no rim is found.
 ContainerRim survey_container_rim(const std::vector<PreparedFrame>& frames);
 /// The same, but returns none if no rim moves along a circle. If `shaken`, a rough path is better

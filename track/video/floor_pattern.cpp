@@ -18,7 +18,6 @@ namespace {
 constexpr double inside = 0.9;      // share of the rim's radius: certainly the floor
 constexpr double tolerance = 10.0;  // grey levels: noise and compression
 constexpr double edge_error = 0.7;  // pixels: an edge of the pattern may be displaced by as much
-constexpr double rim_blur = 1.0;    // pixels, as in the survey of the rim
 constexpr int registration_rounds = 4;
 
 /// The part of a frame around the container's centre.

@@ -96,7 +96,7 @@ Detections detect_frames(const TrackingSettings& settings, const VideoSurvey& su
                          std::int64_t expected, TrackedVideo& tracked) {
     constexpr std::size_t per_thread = 4;  // frames: threads wait little for the slowest one
     const unsigned threads = thread_count(settings);
-    Video video(settings.video, 1, settings.first_frame, settings.fields);
+    Video video(settings.video, 1, settings.first_frame, settings.reading);
     Detections all;
     struct Batch {
         std::vector<cv::Mat> images;

@@ -227,7 +227,7 @@ void mask_highlights(double radius, const cv::Mat& original, MeanDisc& all) {
 MeanDiscs mean_discs(const TrackedVideo& tracked, const TrackingSettings& settings) {
     constexpr std::int64_t frames = 40;  // frames in the mean
     const std::int64_t every = std::max<std::int64_t>(1, tracked.frame_count / frames);
-    Video video(settings.video, every, settings.first_frame, tracked.fields);
+    Video video(settings.video, every, settings.first_frame, tracked.reading);
     MeanDiscs means;
     cv::Mat grey;
     for (std::int64_t k = 0; k < tracked.frame_count && video.next(grey); k += every) {
@@ -290,7 +290,7 @@ using Steps = std::vector<
 
 Steps measure_steps(const TrackedVideo& tracked, const TrackingSettings& settings, int step) {
     const MeanDiscs means = mean_discs(tracked, settings);
-    Video video(settings.video, 1, settings.first_frame, tracked.fields);
+    Video video(settings.video, 1, settings.first_frame, tracked.reading);
     Steps steps(tracked.tracks.frames.size());
     std::vector<std::vector<DiscPatch>> recent(std::size_t(step) + 1);
     cv::Mat grey;

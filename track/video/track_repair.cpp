@@ -78,7 +78,7 @@ void find_missing_discs(const TrackingSettings& settings, const VideoSurvey& sur
     std::vector<std::optional<Vec2>> last(links.species.size());  // relative to the container
     std::vector<std::size_t> last_frame(links.species.size(), all.size());
     for_each_linked(links, [&](std::size_t k, std::size_t t, std::size_t) { last_frame[t] = k; });
-    Video video(settings.video, 1, settings.first_frame, settings.fields);
+    Video video(settings.video, 1, settings.first_frame, settings.reading);
     cv::Mat grey;
     for (std::size_t k = 0; k < all.size() && video.next(grey); ++k) {
         settings.throw_if_stopped();

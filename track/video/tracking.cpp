@@ -188,17 +188,18 @@ struct DetectedVideo {
     Detections all;
 };
 
-/// Sets `settings.fields`.
+/// Sets `settings.reading`.
 DetectedVideo detect_video(TrackingSettings& settings, TrackedVideo& tracked) {
     constexpr std::int64_t assumed_frames = 4 * survey_frames;  // if the number is unknown
     cv::setNumThreads(1);  // the frames are distributed over our threads
     DetectedVideo video;
     video.times = video_times(settings.video);
     const std::int64_t expected = expected_frames(settings, video.times);
-    settings.fields = tracked.fields = field_order(settings.video, settings.first_frame);
+    settings.reading.fields = field_order(settings.video, settings.first_frame);
     const std::int64_t planned = expected > 0 ? expected : assumed_frames;
     if (settings.planned) settings.planned(planned, settings.spins);
     video.survey = survey_video(settings, planned);
+    tracked.reading = settings.reading;
     video.all = detect_frames(settings, video.survey, expected, tracked);
     return video;
 }

@@ -39,7 +39,7 @@ struct TrackingSettings {
     std::optional<std::int64_t> discs;
     std::optional<double> radius_share;  // of a disc, relative to the container
     KnownCamera camera;
-    FieldOrder fields = FieldOrder::progressive;  // set by track_video() itself
+    FrameReading reading;  // set by track_video() itself
     std::int64_t first_frame = 0;
     std::int64_t max_frames = 0;                             // 0: all
     std::vector<FrameRange> skip;                            // frames that are not used
@@ -78,7 +78,7 @@ struct RimCentres {
 struct TrackedVideo {
     int width = 0, height = 0;
     std::int64_t frame_count = 0;
-    FieldOrder fields = FieldOrder::progressive;
+    FrameReading reading;
     double fps = 0.0;           // frames per second; 0: unknown, and times are in frames
     std::vector<double> times;  // ascending
 

@@ -39,8 +39,8 @@ struct VideoSurvey {
     /// Reduction of the frames in which votes for discs are counted.
     double reduction() const { return std::min(1.0, vote_radius / appearance.radius()); }
 };
-/// `frame_count` may be an estimate.
-VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count);
+/// `frame_count` may be an estimate. Sets `settings.reading.plane`.
+VideoSurvey survey_video(TrackingSettings& settings, std::int64_t frame_count);
 
 // frame_detection.cpp
 

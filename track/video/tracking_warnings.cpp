@@ -155,12 +155,13 @@ void warn_about_motion(TrackedVideo& tracked) {
 }
 
 void warn_about_fields(TrackedVideo& tracked) {
-    if (tracked.fields == FieldOrder::progressive) return;
+    if (tracked.reading.fields == FieldOrder::progressive) return;
     warn(tracked,
          "the video is interlaced: the {} rows of each frame, which were taken later, are replaced "
          "by estimates; ffmpeg -i VIDEO -vf bwdif=mode=send_field:parity={}:deint=all "
          "-qp 16 twice.mp4 makes a video with twice as many frames per period",
-         tracked.fields == FieldOrder::top_first ? "odd" : "even", parity_of(tracked.fields));
+         tracked.reading.fields == FieldOrder::top_first ? "odd" : "even",
+         parity_of(tracked.reading.fields));
 }
 
 void warn_about_wall(TrackedVideo& tracked) {

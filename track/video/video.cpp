@@ -147,11 +147,13 @@ std::vector<double> framecrc_times(const std::string& text) {
     return seconds;
 }
 
-/// The size of a PGM image with 8 bits, from its first three lines; nothing if it is no such image.
-std::optional<cv::Size> pgm_size(const std::string& head) {
+/// The size of a PGM or PPM image with 8 bits, from its first three lines; nothing if it is no such
+/// image.
+std::optional<cv::Size> image_size(const std::string& head, bool in_colours) {
     constexpr int max_side = 20000;  // pixels: larger is no frame
     int width = 0, height = 0;
-    if (std::sscanf(head.c_str(), "P5 %d %d 255", &width, &height) != 2) return std::nullopt;
+    const char* const format = in_colours ? "P6 %d %d 255" : "P5 %d %d 255";
+    if (std::sscanf(head.c_str(), format, &width, &height) != 2) return std::nullopt;
     if (width < 1 || height < 1 || width > max_side || height > max_side) return std::nullopt;
     return cv::Size(width, height);
 }
@@ -251,14 +253,14 @@ FieldOrder field_order(const std::string& source, std::int64_t first) {
     return top > bottom ? FieldOrder::top_first : FieldOrder::bottom_first;
 }
 
-Video::Video(std::string source, std::int64_t every, std::int64_t first, FieldOrder fields)
-    : video_(std::move(source)) {
+Video::Video(std::string source, std::int64_t every, std::int64_t first, FrameReading reading)
+    : video_(std::move(source)), reading_(std::move(reading)) {
     std::vector<std::string> arguments = input_arguments(video_);
     append(arguments, {"-an", "-fps_mode", "passthrough"});
     const std::string deinterlace =
-        fields == FieldOrder::progressive
+        reading_.fields == FieldOrder::progressive
             ? ""
-            : fmt::format("bwdif=mode=send_frame:parity={}:deint=all,", parity_of(fields));
+            : fmt::format("bwdif=mode=send_frame:parity={}:deint=all,", parity_of(reading_.fields));
     // Frames get new times, since ffmpeg reports errors for times that do not advance.
     const std::string select =
         every > 1 || first > 0
@@ -266,7 +268,8 @@ Video::Video(std::string source, std::int64_t every, std::int64_t first, FieldOr
             : "";
     append(arguments, {"-vf", deinterlace + select + square_pixels + ",settb=1/25,setpts=N",
                        "-enc_time_base", "1:25"});
-    append(arguments, {"-pix_fmt", "gray", "-c:v", "pgm", "-f", "image2pipe", "pipe:1"});
+    append(arguments, {"-pix_fmt", colours_from_file() ? "rgb24" : "gray", "-c:v",
+                       colours_from_file() ? "ppm" : "pgm", "-f", "image2pipe", "pipe:1"});
     ffmpeg_ = std::make_unique<Ffmpeg>(arguments, Ffmpeg::Side::output, missing_ffmpeg);
 }
 
@@ -281,8 +284,8 @@ bool Video::read(std::uint8_t* into, std::size_t bytes) {
     return true;
 }
 
-/// A PGM image: "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel.
-bool Video::read_frame(cv::Mat& grey) {
+/// A PGM image, "P5\nWIDTH HEIGHT\n255\n" and a byte a pixel, or a PPM image, "P6\n…" and three.
+bool Video::read_frame(cv::Mat& frame) {
     constexpr std::size_t max_head = 60;  // characters: enough for any size below
     std::string head;
     for (int lines = 0; lines < 3;) {
@@ -291,15 +294,18 @@ bool Video::read_frame(cv::Mat& grey) {
         head += static_cast<char>(c);
         if (c == '\n') ++lines;
     }
-    const std::optional<cv::Size> size = pgm_size(head);
+    const std::optional<cv::Size> size = image_size(head, colours_from_file());
     if (!size) return false;
-    grey.create(*size, CV_8UC1);
-    return read(grey.ptr(), grey.total());
+    cv::Mat& pixels = reading_.plane ? colours_ : frame;
+    pixels.create(*size, colours_from_file() ? CV_8UC3 : CV_8UC1);
+    if (!read(pixels.ptr(), pixels.total() * pixels.elemSize())) return false;
+    if (reading_.plane) reading_.plane->project(colours_, frame);
+    return true;
 }
 
-bool Video::next(cv::Mat& grey) {
+bool Video::next(cv::Mat& frame) {
     if (!ffmpeg_) return false;
-    if (read_frame(grey)) {
+    if (read_frame(frame)) {
         ++count_;
         return true;
     }

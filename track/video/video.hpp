@@ -1,5 +1,5 @@
-// The frames of a video in order, in grey. ffmpeg decodes them, and rotates them and makes their
-// pixels square as the file asks.
+// The frames of a video in order, in grey or in colours. ffmpeg decodes them, and rotates them and
+// makes their pixels square as the file asks.
 //
 // A source is a file that ffmpeg reads, or numbered images ('frames/%05d.png').
 #pragma once
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "swirl/render/ffmpeg.hpp"
+#include "track/video/colour_plane.hpp"
 
 namespace swirl::tracking {
 
@@ -54,15 +55,22 @@ inline const char* parity_of(FieldOrder order) {
 /// Determined from the motion in the frames from number `first` on, by ffmpeg's filter idet.
 FieldOrder field_order(const std::string& source, std::int64_t first);
 
+/// How frames are read.
+struct FrameReading {
+    FieldOrder fields = FieldOrder::progressive;
+    bool in_colours = false;                        // three channels of 8 bits: red, green, blue
+    std::shared_ptr<const ColourPlane> plane = {};  // if set, replaces the usual grey
+};
+
 class Video {
   public:
     /// Every `every`th frame from number `first` on. The second field of interlaced frames is
     /// replaced: the frame is an estimate for the time of its first field. Throws Failure.
     explicit Video(std::string source, std::int64_t every = 1, std::int64_t first = 0,
-                   FieldOrder fields = FieldOrder::progressive);
+                   FrameReading reading = {});
 
     /// The next frame (8 bits a pixel), or false at the end. Throws Failure if there are no frames.
-    bool next(cv::Mat& grey);
+    bool next(cv::Mat& frame);
     /// Number of frames read so far.
     std::int64_t count() const { return count_; }
     /// ffmpeg's error message for a damaged video, so far; empty if there is none.
@@ -70,9 +78,12 @@ class Video {
 
   private:
     bool read(std::uint8_t* into, std::size_t bytes);
-    bool read_frame(cv::Mat& grey);
+    bool read_frame(cv::Mat& frame);
+    bool colours_from_file() const { return reading_.in_colours || reading_.plane; }
 
     std::string video_, problem_;
+    FrameReading reading_;
+    cv::Mat colours_;  // of the last frame, if `reading_` has a plane
     std::unique_ptr<Ffmpeg> ffmpeg_;
     std::int64_t count_ = 0;
 };

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 
+#include "swirl/math/unit_circle.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parallel_for.hpp"
 #include "track/video/appearance_template.hpp"
@@ -38,7 +40,7 @@ std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
     std::size_t maximum = survey_frames + 2;  // the division rounds down
     if (settings.max_frames > 0)
         maximum = std::min(maximum, static_cast<std::size_t>((frame_count + every - 1) / every));
-    Video video(settings.video, every, settings.first_frame, settings.fields);
+    Video video(settings.video, every, settings.first_frame, settings.reading);
     cv::Mat grey;
     std::vector<cv::Mat> images;
     while (images.size() < maximum && video.next(grey)) {
@@ -52,13 +54,12 @@ std::vector<cv::Mat> read_survey_frames(const TrackingSettings& settings,
 
 std::vector<PreparedFrame> prepare_all(const std::vector<cv::Mat>& images, double reduction,
                                        const TrackingSettings& settings) {
-    constexpr double blur = 1.0;  // pixels, against noise: the edge of a rim is broader
     std::vector<std::optional<PreparedFrame>> prepared(images.size());
     parallel_for(
         images.size(),
         [&](std::size_t k) {
             settings.throw_if_stopped();
-            prepared[k].emplace(images[k], reduction, blur);
+            prepared[k].emplace(images[k], reduction, rim_blur);
         },
         thread_count(settings));
     std::vector<PreparedFrame> frames;
@@ -319,42 +320,128 @@ void fold_mixed_brightness(const TrackingSettings& settings, double reduction, d
                     one.polarity > 0 ? "dark" : "bright"));
 }
 
-}  // namespace
+/// A survey and the frames that it is made from.
+struct Surveyed {
+    VideoSurvey survey;
+    std::vector<cv::Mat> images;
+    std::vector<PreparedFrame> frames;
+    double reduction = 1.0, detail = 1.0;  // of the frames for the rim, and for discs
+};
 
-VideoSurvey survey_video(const TrackingSettings& settings, std::int64_t frame_count) {
+/// Reads the frames and finds the rim.
+Surveyed survey_rim(const TrackingSettings& settings, std::int64_t frame_count) {
     constexpr double min_side = 64.0;      // pixels: smaller frames show no discs
     constexpr double rim_side = 300.0;     // pixels: enough to find the rim
     constexpr double particle_side = 1.3;  // times that, for discs: they are smaller
-    VideoSurvey survey;
-    std::vector<cv::Mat> images = read_survey_frames(settings, frame_count);
-    survey.size = images.front().size();
-    const double side = std::min(survey.size.width, survey.size.height);
+    Surveyed all;
+    all.images = read_survey_frames(settings, frame_count);
+    all.survey.size = all.images.front().size();
+    const double side = std::min(all.survey.size.width, all.survey.size.height);
     if (side < min_side)
         throw Failure(fmt::format("the frames of '{}' have {}x{} pixels, too few to show discs",
-                                  settings.video, survey.size.width, survey.size.height));
-    const double reduction = std::min(1.0, rim_side / side);
-    std::vector<PreparedFrame> frames = prepare_all(images, reduction, settings);
-    const std::optional<ContainerRim> moving = find_moving_rim(frames, true);
+                                  settings.video, all.survey.size.width, all.survey.size.height));
+    all.reduction = std::min(1.0, rim_side / side);
+    all.detail = std::min(1.0, particle_side * rim_side / side);
+    all.frames = prepare_all(all.images, all.reduction, settings);
+    const std::optional<ContainerRim> moving = find_moving_rim(all.frames, true);
     const bool on_circle = moving && !(settings.motion_only && moving->rough);
-    survey.rim = on_circle              ? *moving
-                 : settings.motion_only ? find_rim_on_any_path(frames)
-                                        : survey_container_rim(frames);
+    all.survey.rim = on_circle              ? *moving
+                     : settings.motion_only ? find_rim_on_any_path(all.frames)
+                                            : survey_container_rim(all.frames);
+    return all;
+}
+
+void survey_discs(const TrackingSettings& settings, Surveyed& all) {
+    auto& [survey, images, frames, reduction, detail] = all;
     remove_camera_motion(settings, reduction, images, frames, survey);
     if (survey.rim.rough) survey.rim = survey_container_rim(frames);
     if (settings.patterned_floor) remove_floor_pattern(settings, reduction, images, frames, survey);
-    const double detail = std::min(1.0, particle_side * rim_side / side);
     survey.appearance = survey_appearance(images, frames, detail, survey.rim, settings);
     constexpr std::size_t one_in = 10;  // discs: fewer of the other brightness may be marks
     if (one_in * survey.appearance.opposite > survey.appearance.number && !settings.motion_only &&
         !survey.floor)
         fold_mixed_brightness(settings, reduction, detail, images, frames, survey);
     settings.throw_if_stopped();
+}
+
+/// The tilt and the appearance of discs, which need their sizes.
+VideoSurvey finished_survey(const TrackingSettings& settings, Surveyed& all) {
+    VideoSurvey& survey = all.survey;
     // Where edges are too poor for discs, they are too poor for the tilt.
     KnownCamera camera = settings.camera;
     if (survey.appearance.shading && !camera.tilt) camera.tilt = 0.0;
-    survey.tilt = find_tilt(frames, camera, survey.rim, survey.appearance.lens);
-    learn_appearance(images, settings, survey);
+    survey.tilt = find_tilt(all.frames, camera, survey.rim, survey.appearance.lens);
+    learn_appearance(all.images, settings, survey);
     return survey;
+}
+
+/// Colours of pixels inside the rim, in frames spread over the video.
+std::vector<cv::Vec3b> colours_inside(const TrackingSettings& settings, std::int64_t frame_count,
+                                      const Surveyed& grey) {
+    constexpr std::int64_t enough = 12;   // frames
+    constexpr double inside = 0.9;        // share of the rim's radius: no wall
+    constexpr double per_frame = 1000.0;  // pixels
+    FrameReading reading = settings.reading;
+    reading.in_colours = true;
+    Video video(settings.video, std::max<std::int64_t>(1, frame_count / enough),
+                settings.first_frame, reading);
+    const double reach = inside * grey.survey.rim.radius;
+    const int stride = std::max(1, int(reach * std::sqrt(pi / per_frame)));
+    std::vector<cv::Vec3b> colours;
+    cv::Mat image, level;
+    while (video.count() < enough && video.next(image)) {
+        settings.throw_if_stopped();
+        cv::cvtColor(image, level, cv::COLOR_RGB2GRAY);
+        const CircleFit rim =
+            find_container_rim(PreparedFrame(level, grey.reduction, rim_blur), grey.survey.rim);
+        if (!rim.good) continue;
+        for (int row = 0; row < image.rows; row += stride)
+            for (int column = 0; column < image.cols; column += stride)
+                if (length(Vec2{double(column), double(row)} - rim.centre) < reach)
+                    colours.push_back(image.at<cv::Vec3b>(row, column));
+        if (is_grey(colours)) break;
+    }
+    return colours;
+}
+
+/// The survey in a plane of colours, if one is proposed and shows at least as many discs as grey.
+/// Sets `settings.reading.plane`.
+std::optional<Surveyed> survey_colours(TrackingSettings& settings, std::int64_t frame_count,
+                                       const Surveyed& grey) {
+    auto plane = ColourPlane::proposed(colours_inside(settings, frame_count, grey));
+    if (!plane) return std::nullopt;
+    TrackingSettings in_plane = settings;
+    in_plane.reading.plane = std::make_shared<const ColourPlane>(std::move(*plane));
+    std::optional<Surveyed> coloured;
+    try {
+        coloured = survey_rim(in_plane, frame_count);
+        survey_discs(in_plane, *coloured);
+    } catch (const Failure&) {
+        settings.throw_if_stopped();
+        return std::nullopt;
+    }
+    std::size_t in_grey = 0;
+    try {
+        Surveyed again = grey;
+        survey_discs(settings, again);
+        in_grey = again.survey.appearance.number;
+    } catch (const Failure&) {
+        settings.throw_if_stopped();
+    }
+    if (coloured->survey.appearance.number < in_grey) return std::nullopt;
+    settings = std::move(in_plane);
+    return coloured;
+}
+
+}  // namespace
+
+VideoSurvey survey_video(TrackingSettings& settings, std::int64_t frame_count) {
+    Surveyed grey = survey_rim(settings, frame_count);
+    if (!settings.motion_only)
+        if (auto coloured = survey_colours(settings, frame_count, grey))
+            return finished_survey(settings, *coloured);
+    survey_discs(settings, grey);
+    return finished_survey(settings, grey);
 }
 
 }  // namespace swirl::tracking

@@ -126,7 +126,7 @@ TEST_F(Fields, OrderIsFoundFromTheMotion) {
 TEST_F(Fields, FramesShowTheTimeOfTheFirstField) {
     for (const FieldOrder order : {FieldOrder::top_first, FieldOrder::bottom_first}) {
         const bool top = order == FieldOrder::top_first;
-        Video video(write(top ? 0.0 : 0.5, top ? 0.5 : 0.0), 1, 0, order);
+        Video video(write(top ? 0.0 : 0.5, top ? 0.5 : 0.0), 1, 0, {.fields = order});
         cv::Mat grey;
         for (int k = 0; k < frames; ++k) {
             ASSERT_TRUE(video.next(grey));
