@@ -33,18 +33,27 @@ SWIRL_INLINE Others<8> load_eight(const DiscColumns& columns, int group) {
             Eight::load(columns.radius + k)};
 }
 
+/// With a column in one or two of the widest registers, all of it is stored. The compiler then knows
+/// the address of the store and of the next load, and keeps the column in registers in between. So a
+/// prediction does not wait for the store. Longer columns or narrower registers gain nothing.
+template <int G = max_discs_in_columns / 8>
 SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
-    set_lane<8>(column + (i & ~7u), i & 7u, x);
+    if constexpr (G <= 2 && Eight::parts == 1)
+        for (std::uint32_t k = 0; k < 8 * G; k += 8)
+            with_lane(Eight::load(column + k), i - k, x).store(column + k);
+    else
+        set_lane<8>(column + (i & ~7u), i & 7u, x);
 }
 
+template <int G>
 SWIRL_INLINE void copy(AllPairsState& state, std::uint32_t i) {
     const HotDisc& disc = state.discs[i];
     DiscColumns& columns = state.columns;
-    set(columns.x, i, disc.position.x);
-    set(columns.y, i, disc.position.y);
-    set(columns.vx, i, disc.velocity.x);
-    set(columns.vy, i, disc.velocity.y);
-    set(columns.time, i, disc.time);
+    set<G>(columns.x, i, disc.position.x);
+    set<G>(columns.y, i, disc.position.y);
+    set<G>(columns.vx, i, disc.velocity.x);
+    set<G>(columns.vy, i, disc.velocity.y);
+    set<G>(columns.time, i, disc.time);
 }
 
 /// Predicts the first contact of D discs with another disc, at time t. Returns the earliest time.
@@ -65,7 +74,7 @@ SWIRL_INLINE double predict_contacts(AllPairsState& state, const std::uint32_t (
         // Without a contact all lanes are equal; any partner will do.
         const std::uint64_t equal = lanes_equal(contact[d], time);
         store_partner(state, {time, ids[d], static_cast<std::uint32_t>(__builtin_ctzll(equal))});
-        set(state.columns.contact, ids[d], time);
+        set<G>(state.columns.contact, ids[d], time);
         first = smaller(first, time);
     }
     return first;
@@ -82,7 +91,7 @@ SWIRL_INLINE double predict_wall_on_arc(AllPairsState& state, const std::uint32_
     const Lanes<2> time = earliest_wall_times<D>(state, centre, ids);
     for (int d = 0; d < D; ++d) {
         if (is_exact) columns.centre[ids[d]] = centre;
-        set(columns.wall, ids[d], lane(time, d));
+        set<G>(columns.wall, ids[d], lane(time, d));
         columns.wall_is_bound |= std::uint64_t{1} << ids[d];
     }
     return smallest(time);
@@ -93,7 +102,7 @@ SWIRL_INLINE double predict_wall(AllPairsState& state, const std::uint32_t (&ids
     if (state.on_arc()) [[unlikely]]
         return predict_wall_on_arc<G>(state, ids, t);
     const double time = wall_time(state, ids[0]);
-    set(state.columns.wall, ids[0], time);
+    set<G>(state.columns.wall, ids[0], time);
     return time;
 }
 /// The same for two discs. Returns the earlier time.
@@ -102,8 +111,8 @@ SWIRL_INLINE double predict_wall(AllPairsState& state, const std::uint32_t (&ids
     if (state.on_arc()) [[unlikely]]
         return predict_wall_on_arc<G>(state, ids, t);
     const Lanes<2> time = wall_times_from_now(state, state.discs[ids[0]], state.discs[ids[1]], t);
-    set(state.columns.wall, ids[0], lane(time, 0));
-    set(state.columns.wall, ids[1], lane(time, 1));
+    set<G>(state.columns.wall, ids[0], lane(time, 0));
+    set<G>(state.columns.wall, ids[1], lane(time, 1));
     return smaller(lane(time, 0), lane(time, 1));
 }
 
@@ -144,14 +153,14 @@ template <int G>
         }
         return;
     }
-    set(columns.wall, i, never);
+    set<G>(columns.wall, i, never);
     Eight minimum = Eight(state.segments[state.segment].end);
     for (int g = 0; g < G; ++g)
         minimum = smaller(minimum, smaller(Eight::load(columns.contact + 8 * g),
                                            Eight::load(columns.wall + 8 * g)));
     const WallContact contact = seek_wall(
         state, i, columns.centre[i], smallest(minimum) + state.arc_bound.horizon * (1.0 / 16.0));
-    set(columns.wall, i, contact.time);
+    set<G>(columns.wall, i, contact.time);
     if (!contact.is_later) columns.wall_is_bound &= ~(std::uint64_t{1} << i);
 }
 
@@ -197,7 +206,7 @@ SWIRL_INLINE void find_next(AllPairsState& state) {
 
 template <int G>
 [[gnu::noinline]] static void predict_all(AllPairsState& state) {
-    for (std::uint32_t i = 0; i < state.size; ++i) copy(state, i);
+    for (std::uint32_t i = 0; i < state.size; ++i) copy<G>(state, i);
     for (std::uint32_t i = 0; i < state.size; ++i)
         predict_contacts<G, StateAge::any, 1>(state, {i}, state.clock);
     predict_all_walls<G>(state);
@@ -211,9 +220,10 @@ SWIRL_INLINE void segment_ended(AllPairsState& state) {
     find_next<G>(state);
 }
 
+template <int G>
 SWIRL_INLINE void remove(DiscColumns& columns, std::uint32_t i) {
-    set(columns.contact, i, never);
-    set(columns.wall, i, never);
+    set<G>(columns.contact, i, never);
+    set<G>(columns.wall, i, never);
 }
 
 }  // namespace all_pairs
@@ -235,15 +245,15 @@ struct AllPairs {
     /// The earliest event of the remaining discs is found here, before the discs that now collide
     /// have been predicted. It is mostly the next event.
     SWIRL_INLINE static PendingEvent remove(AllPairsState& state, const PendingEvent& event) {
-        all_pairs::remove(state.columns, event.disc);
-        if (!event.is_with_wall()) all_pairs::remove(state.columns, event.partner);
+        all_pairs::remove<G>(state.columns, event.disc);
+        if (!event.is_with_wall()) all_pairs::remove<G>(state.columns, event.partner);
         all_pairs::find_next<G>(state);
         return event;
     }
     template <int D>
     SWIRL_INLINE static void predict_changed(AllPairsState& state, const std::uint32_t (&ids)[D],
                                              double t) {
-        for (int d = 0; d < D; ++d) all_pairs::copy(state, ids[d]);
+        for (int d = 0; d < D; ++d) all_pairs::copy<G>(state, ids[d]);
         const double wall = all_pairs::predict_wall<G>(state, ids, t);
         const double contact = all_pairs::predict_contacts<G, StateAge::now, D>(state, ids, t);
         if (smaller(contact, wall) <= state.columns.next.time) [[unlikely]]
