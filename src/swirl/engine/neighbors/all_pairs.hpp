@@ -33,9 +33,10 @@ SWIRL_INLINE Others<8> load_eight(const DiscColumns& columns, int group) {
             Eight::load(columns.radius + k)};
 }
 
-/// With a column in one or two of the widest registers, all of it is stored. The compiler then knows
-/// the address of the store and of the next load, and keeps the column in registers in between. So a
-/// prediction does not wait for the store. Longer columns or narrower registers gain nothing.
+/// With a column in one or two of the widest registers, all of it is stored. The compiler then
+/// knows the address of the store and of the next load, and keeps the column in registers in
+/// between. So a prediction does not wait for the store. Longer columns or narrower registers gain
+/// nothing.
 template <int G = max_discs_in_columns / 8>
 SWIRL_INLINE void set(double* column, std::uint32_t i, double x) {
     if constexpr (G <= 2 && Eight::parts == 1)
