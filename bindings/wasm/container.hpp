@@ -58,16 +58,6 @@ class Container {
     Container(const Container&) = delete;
     Container& operator=(const Container&) = delete;
 
-    /// The last passed event.
-    const Event& event() const { return passed_; }
-    /// The next event. It is not executed here: hash and counts stay those of the last one.
-    Event next_event() const {
-        if (found_) return run_.event();
-        InitialState state = without_discs(config_, path());
-        for (std::uint32_t i = 0; i < simulation().size(); ++i)
-            state.discs.push_back(simulation().disc(i));
-        return Simulation(state, simulation().progress()).step();
-    }
     /// Passes an event that was found, so that averages, counts and state belong to the same time.
     void pass_found_event() {
         if (found_) pass();
@@ -241,18 +231,17 @@ class Container {
             frustration_.close_block();
         }
         found_ = false;
-        passed_ = run_.event();
-        add_contact();
+        add_contact(run_.event());
         passed_clock_ = run_.stored_snapshot().clock;
     }
 
-    void add_contact() {
+    void add_contact(const Event& event) {
         constexpr std::size_t most = 4096;
-        if (passed_.kind != EventKind::disc_disc && passed_.kind != EventKind::disc_wall) return;
+        if (event.kind != EventKind::disc_disc && event.kind != EventKind::disc_wall) return;
         if (contacts_.size() == most)
             contacts_.erase(contacts_.begin(), contacts_.end() - most / 2);
-        contacts_.push_back({time_of(passed_), passed_.i, passed_.j, passed_.impulse.sticks});
-        if (run_.is_warm()) frustration_.sample_event(passed_, run_.stored_snapshot());
+        contacts_.push_back({time_of(event), event.i, event.j, event.impulse.sticks});
+        if (run_.is_warm()) frustration_.sample_event(event, run_.stored_snapshot());
     }
 
     const RunConfig config_;
@@ -260,7 +249,6 @@ class Container {
     PageObservation observation_;
     CoreRun run_;
     Snapshot shown_;
-    Event passed_{};
     RotationSample turns_{0.0, 0.0};
     bool turns_are_averaged_ = false;
     SampleTimes turned_times_;

@@ -439,22 +439,6 @@ EXPORTED(frame_size) std::uint32_t frame_size() {
     return static_cast<std::uint32_t>(numbers.size());
 }
 
-namespace {
-/// Time, kind (0 disc-disc, 1 disc-wall, 2 path vertex, 3 begins to roll), i, j, normal (2
-/// numbers), impulse along the normal and the tangent, sticks.
-const double* event_numbers(const Event& e) {
-    numbers.assign({double(e.periods) * simulated->config().period + e.clock,
-                    double(static_cast<int>(e.kind)), double(e.i), double(e.j), e.normal.x,
-                    e.normal.y, e.impulse.normal, e.impulse.tangential, double(e.impulse.sticks)});
-    return numbers.data();
-}
-}  // namespace
-
-/// The last passed event.
-LABORATORY(event) const double* event() { return event_numbers(simulated->event()); }
-/// The next event.
-LABORATORY(next_event) const double* next_event() { return event_numbers(simulated->next_event()); }
-
 EXPORTED(time) double passed_time() { return simulated->time(); }
 EXPORTED(events) double events() {
     return static_cast<double>(simulated->simulation().events().total());

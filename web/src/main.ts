@@ -97,7 +97,7 @@ lab.on("frame", () => {
     if (!isFirst) return;
     isFirst = false;
     if (isExact) player.setPlaying(false);
-    else player.lapseByItself();
+    else player.lapse();
     isExact = false;
 });
 lab.on("ready", () => {

@@ -98,6 +98,13 @@ for (const [width, height, colorScheme, lang] of all ? every : few) {
             dy = y - Math.max(top, Math.min(bottom, y));
         assert.ok(Math.hypot(dx, dy) >= 0.5 * side, `${where}: #${name} covers the dish`);
     }
+    const sizes = await page.$$eval("#sentence, #reversal, button, a", (all) =>
+        all.map((each) => parseFloat(getComputedStyle(each).fontSize)),
+    );
+    assert.ok(
+        sizes.every((size) => [13, 16, 17, 24].includes(size)),
+        `${where}: ${sizes}`,
+    );
     const words = (await said(page)).trim().split(/\s+/);
     assert.ok(words.length <= 10, `${where}: ${words.join(" ")}`);
     await hasNoViolation(page, where);

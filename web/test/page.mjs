@@ -73,13 +73,11 @@ const openParameters = () =>
     page.evaluate(() => {
         document.querySelector("#parameters").open = true;
     });
-/** Sets the pace in periods per second. */
-const setPace = (pace) =>
-    page.evaluate((value) => {
-        const speed = document.getElementById("speed");
-        speed.value = String(Math.log10(value));
-        speed.dispatchEvent(new Event("input"));
-    }, pace);
+/** Opens the panel with the choices of view and colour. */
+const openViewing = (of = page) =>
+    of.evaluate(() => {
+        document.querySelector("#viewing details").open = true;
+    });
 const open = async (query) => {
     await page.goto(address + query);
     await page.waitForFunction(
@@ -155,10 +153,6 @@ for (const [x, y] of ofPage.discs) {
     );
 }
 
-// One more event, drawn with its impulse.
-await page.click("#step");
-await page.waitForFunction(() => document.getElementById("event-count").textContent === "20001");
-
 // A paused page asks for no animation frames: none in the time in which the browser makes twenty.
 const asked = () =>
     page.evaluate(async () => {
@@ -174,11 +168,6 @@ const asked = () =>
     });
 assert.equal(await asked(), 0);
 
-// A hundred more events one by one; each time the page also determines the next one.
-await page.evaluate(() => {
-    for (let k = 0; k < 100; ++k) document.getElementById("step").click();
-});
-await page.waitForFunction(() => document.getElementById("event-count").textContent === "20101");
 assert.equal(await page.isHidden("#error"), true);
 await requireAccessible("a container");
 await page.emulateMedia({colorScheme: "dark"});
@@ -260,6 +249,7 @@ await page.click("#restart");
 await page.waitForFunction(() =>
     /--mu 0.1( |$)/.test(document.getElementById("command").textContent),
 );
+await openViewing();
 await page.selectOption("#choose-view", "both");
 assert.equal(await page.locator("#views canvas:visible").count(), 2);
 await page.selectOption("#choose-view", "lab");
@@ -467,16 +457,15 @@ await press("by-hand");
 await press("close-compared");
 assert.equal(await page.locator("#views canvas:visible").count(), 1);
 await page.waitForFunction(() => /^\?seed=\d{4}$/.test(location.search));
-await open("?mu=0.5&beside=5&view=both&color=spin&pace=3&trails=1");
+await open("?mu=0.5&beside=5&view=both&color=spin&strobe=1");
 assert.equal(await page.locator("#views canvas:visible").count(), 3);
 assert.deepEqual(
-    await page.$eval("#transport", (bar) => [
+    await page.$eval("#options", (bar) => [
         bar.querySelector("#choose-view").value,
         bar.querySelector("#choose-coloring").value,
-        bar.querySelector("#trails").ariaPressed,
-        Math.round(10 ** bar.querySelector("#speed").value),
+        bar.querySelector("#strobe").ariaPressed,
     ]),
-    ["both", "spin", "true", 3],
+    ["both", "spin", "true"],
 );
 for (const wrong of some(["-3", "", "x", "0", "1e9"], 1)) {
     await open(`?discs=9&beside=${wrong}`);
@@ -485,19 +474,7 @@ for (const wrong of some(["-3", "", "x", "0", "1e9"], 1)) {
     );
     await page.waitForSelector('canvas[aria-label^="9 discs"]'); // the simulation runs
 }
-for (const wrong of some(
-    [
-        "pace=11",
-        "view=toString",
-        "strobe=yes",
-        "pace=0",
-        "pace=x",
-        "view=top",
-        "color=",
-        "trails=2",
-    ],
-    1,
-)) {
+for (const wrong of some(["view=toString", "strobe=yes", "view=top", "color=", "strobe=2"], 1)) {
     await open(`?discs=9&${wrong}`);
     await page.waitForFunction(
         (given) =>
@@ -559,7 +536,7 @@ await open("?discs=5&amplitude=1e6&events=100");
 assert.ok(
     (await page.evaluate(() => {
         globalThis.drawnCircles = [];
-        document.getElementById("trails").click();
+        dispatchEvent(new Event("resize"));
         return globalThis.drawnCircles.length;
     })) >= 10,
 );
@@ -631,7 +608,6 @@ assert.equal(await page.isHidden("#error"), true);
 // A change keeps the discs, and there is no command that reproduces the state. Discs are added and
 // removed.
 await open("?discs=8");
-await setPace(10);
 await page.fill("#parameter-mu", "0.2");
 await page.waitForFunction(() => document.getElementById("command").textContent.startsWith("none"));
 await page.fill("#parameter-discs", "40");
@@ -660,6 +636,7 @@ await press("keep");
 // Maps, the stroboscope, moving by hand and dragging, and a second container.
 if (all) {
     // Averages are drawn behind the discs: the map covers most of the container with its shades.
+    await openViewing();
     for (const kind of ["density", "flow", "spin"]) {
         await page.selectOption("#choose-view", kind);
         await page.waitForFunction(() => {
@@ -677,8 +654,7 @@ if (all) {
 
     // The stroboscope shows one image per period: between two of them the container does not move.
     await open("?discs=12");
-    await page.click("#strobe");
-    await setPace(2);
+    await press("strobe");
     const images = await page.evaluate(
         () =>
             new Promise((resolve) => {
@@ -699,7 +675,7 @@ if (all) {
             }),
     );
     assert.equal(images.length, 1, images.join("; "));
-    await page.click("#strobe");
+    await press("strobe");
 
     // By hand: the container follows the pointer until the mode is switched off.
     await open("?discs=9");
@@ -747,6 +723,7 @@ if (all) {
             }
             return [(x / n + 0.5) / canvas.width, (y / n + 0.5) / canvas.height];
         });
+    await openViewing();
     await page.selectOption("#choose-coloring", "id");
     const held = await centroid();
     await page.mouse.move(table1.x + held[0] * table1.width, table1.y + held[1] * table1.height);
@@ -791,9 +768,8 @@ if (all) {
     });
     await phone.goto(`${address}?discs=1&events=20`);
     await phone.waitForFunction(() => document.getElementById("state-hash").textContent !== "");
-    await phone.click("#view-options summary"); // on a phone the bar has the rest of its controls here
+    await openViewing(phone);
     await phone.selectOption("#choose-coloring", "id");
-    await phone.click("#view-options summary");
     await phone.locator("#views canvas").scrollIntoViewIfNeeded();
     const small = await phone.locator("#views canvas").boundingBox();
     const touched = await centroid(phone);
@@ -855,6 +831,7 @@ assert.equal(await page.inputValue("#choose-view"), "m");
 await page.keyboard.press("c");
 assert.equal(await page.inputValue("#choose-coloring"), "spin");
 for (const [key, details] of [
+    ["o", "#viewing"],
     ["m", "#more"],
     ["e", "#explorer"],
     ["d", "#share"],
@@ -1191,6 +1168,7 @@ await apple.close();
 // A recording gives a movie.
 await page.setViewportSize({width: 1200, height: 640}); // a busy machine cannot encode larger images in time
 await open("?discs=28");
+await openViewing();
 await page.selectOption("#choose-coloring", "spin");
 await press("record");
 await page.waitForTimeout(1500);

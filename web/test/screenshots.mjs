@@ -27,12 +27,6 @@ const choose = (page, id, value) =>
         [id, value],
     );
 const click = (page, id) => page.evaluate((name) => document.getElementById(name).click(), id);
-const setPace = (page, pace) =>
-    page.evaluate((value) => {
-        const speed = document.getElementById("speed");
-        speed.value = String(Math.log10(value));
-        speed.dispatchEvent(new Event("input"));
-    }, pace);
 
 /** Name, query, what happens, and options of the page; the name "dish" is that of the first page. */
 const states = [
@@ -79,9 +73,7 @@ const states = [
             await hasPeriods(page, 33);
             await choose(page, "choose-view", "both");
             await click(page, "strobe");
-            await click(page, "trails");
-            await setPace(page, 4);
-            await hasPeriods(page, 52);
+            await hasPeriods(page, 36);
         },
     ],
     [
@@ -89,8 +81,7 @@ const states = [
         "?seed=1",
         async (page) => {
             await choose(page, "choose-view", "density");
-            await setPace(page, 10);
-            await hasPeriods(page, 150);
+            await hasPeriods(page, 100);
         },
     ],
     [
@@ -98,8 +89,7 @@ const states = [
         "?discs=28",
         async (page) => {
             await choose(page, "choose-view", "flow");
-            await setPace(page, 10);
-            await hasPeriods(page, 150);
+            await hasPeriods(page, 100);
         },
         {colorScheme: "dark"},
     ],

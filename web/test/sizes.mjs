@@ -13,6 +13,37 @@ const address = pathToFileURL(file).href;
 const browser = await launch(executablePath);
 const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
+/** Texts have four sizes, and what can be pressed has sides of at least 44 pixels. */
+const hasTargets = async (page, where) => {
+    const [sizes, small] = await page.evaluate(() => {
+        const isShown = (each) => each.getClientRects().length > 0;
+        const texts = [...document.querySelectorAll("body *")].filter(
+            (each) => isShown(each) && [...each.childNodes].some(({nodeType}) => nodeType === 3),
+        );
+        const pressed = [...document.querySelectorAll("button, input, select, summary, textarea")]
+            .filter(isShown)
+            // The label of a box or a button of choice is a part of its target.
+            .map((each) => (/checkbox|radio/.test(each.type) ? each.closest("label") : each));
+        return [
+            texts
+                .filter((each) => !/script|style|option|noscript/i.test(each.tagName))
+                .map((each) => getComputedStyle(each).fontSize),
+            pressed
+                .filter((each) => {
+                    const {width, height} = each.getBoundingClientRect();
+                    return width < 44 || height < 44;
+                })
+                .map((each) => each.outerHTML.slice(0, 80)),
+        ];
+    });
+    assert.deepEqual(
+        [...new Set(sizes)].filter((size) => !["13px", "16px", "17px", "24px"].includes(size)),
+        [],
+        where,
+    );
+    assert.deepEqual(small, [], where);
+};
+
 const newVisitor = "",
     link = "&seed=1";
 const every = [
@@ -93,19 +124,18 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
             .map((each) => each.outerHTML.slice(0, 80)),
     );
     assert.deepEqual(broken, [], where);
-    // Menus open inside the window.
-    for (const id of ["view-options", "share"]) {
-        await page.click(`#${id} summary`);
-        const menu = await page.locator(`#${id} .menu`).boundingBox();
-        assert.ok(
-            menu.x >= 0 &&
-                menu.y >= 0 &&
-                menu.x + menu.width <= width &&
-                menu.y + menu.height <= height,
-            `${where}: the menu of #${id} is at ${JSON.stringify(menu)}`,
-        );
-        await page.click(`#${id} summary`);
-    }
+    // The menu opens inside the window.
+    await page.click("#share summary");
+    const menu = await page.locator("#share .menu").boundingBox();
+    assert.ok(
+        menu.x >= 0 &&
+            menu.y >= 0 &&
+            menu.x + menu.width <= width &&
+            menu.y + menu.height <= height,
+        `${where}: the menu is at ${JSON.stringify(menu)}`,
+    );
+    await hasTargets(page, where);
+    await page.click("#share summary");
     // On a phone the dish stays while the controls scroll.
     await page.evaluate(() => scrollTo(0, 600));
     if (width <= 768) {
@@ -114,19 +144,44 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
     }
     await page.evaluate(() => {
         scrollTo(0, 0);
-        for (const each of document.querySelectorAll("#panels details, #view-options"))
-            each.open = true;
+        for (const each of document.querySelectorAll("main details")) each.open = true;
     });
+    await hasTargets(page, where);
+    // Each name of a parameter belongs to one control.
+    const names = await page.$$eval("[id^=slider-], [id^=parameter-]:not(datalist)", (all) =>
+        all.map((each) => each.ariaLabel ?? each.labels[0].textContent),
+    );
+    assert.ok(names.length > 40 && new Set(names).size === names.length, `${where}: ${names}`);
     const wideOpen = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wideOpen <= width, `${where}: the open page is ${wideOpen} wide`);
     const violations = await page.evaluate(async () =>
         (
             await globalThis.axe.run({
-                runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"],
+                runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
             })
         ).violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`),
     );
     assert.deepEqual(violations, [], where);
+    // With forced colours and in print the gauge, the sliders and the legends are still there.
+    const marks = () =>
+        page.$$eval(".needle, .shape", (all) =>
+            all.map((each) => getComputedStyle(each).backgroundColor),
+        );
+    const seen = await marks();
+    assert.ok(seen.length >= 2, where);
+    await page.emulateMedia({forcedColors: "active"});
+    assert.deepEqual(await marks(), seen, where);
+    assert.notEqual(
+        ...(await page.$$eval("#keep, #play", (two) =>
+            two.map((each) => getComputedStyle(each).backgroundColor),
+        )),
+        where,
+    );
+    await page.emulateMedia({forcedColors: "none", media: "print"});
+    for (const print of await page.$$eval(".needle, .shape, [type=range]", (all) =>
+        all.map((each) => getComputedStyle(each).printColorAdjust),
+    ))
+        assert.equal(print, "exact", where);
     await page.close();
 }
 await browser.close();

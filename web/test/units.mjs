@@ -132,7 +132,7 @@ try {
     for (const [source, wanted] of [
         ['element("p", {id: "said", textContent: "Wait"})', ["Wait"]],
         ['element("label", {}, box, ` Trails ${n}`)', [" Trails "]],
-        ['button("Go", () => tell({kind: "step"}), "step")', ["Go"]],
+        ['button("Go", () => tell({kind: "skip"}), "skip")', ["Go"]],
         ['byId("a").textContent = x === "lab" ? "Dish" : "…"', ["Dish"]],
         ['a.setAttribute("aria-label", "The dish")', ["The dish"]],
         ['a.setAttribute("aria-keyshortcuts", "ArrowLeft ArrowRight")', []],
@@ -164,7 +164,13 @@ try {
             page,
         );
 
-    const {discAt, recent} = await load("scene");
+    // The notices at the end of the pages name each library in them.
+    const notices = readFileSync(new URL("../notices.txt", import.meta.url), "utf-8");
+    for (const source of filesWith(".ts"))
+        for (const [, library] of readFileSync(source, "utf-8").matchAll(/ from "(\w[\w-]*)"/g))
+            assert.ok(notices.includes(` ${library},`), `${library} of ${source} has no notice`);
+
+    const {discAt, extentOf} = await load("scene");
     const cluster = [
         [0, 0],
         [2, 0],
@@ -173,20 +179,9 @@ try {
     ];
     assert.equal(discAt(frame(cluster), 2.5, 0.5), 1);
     assert.equal(discAt(frame(cluster), 2.9, 0.9), undefined);
-    // Trails span a fixed time, whatever the interval between two frames.
-    for (const [step, count] of [
-        [0.01, 30],
-        [0.1, 3],
-        [0.2, 1],
-        [2, 0],
-    ]) {
-        const history = Array.from({length: 45}, (_, k) =>
-            frame(cluster, {time: step * (k - 45) - 1e-9}),
-        );
-        const past = recent(history, frame(cluster), 0.3 + 1e-8);
-        assert.equal(past.length, count, `${past.length} frames of ${step} periods`);
-        assert.deepEqual(past, history.slice(45 - count)); // the newest ones, in order
-    }
+    // An image reaches to the farthest position of the container, or to the one where a hand moved it.
+    assert.equal(extentOf(frame(cluster, {centre: [3, 4]}), 2), 13.6);
+    assert.equal(extentOf(frame(cluster, {centre: [0, 1]}), 2), 10.6);
 
     // Sectors stay with the discs: a rotated cluster keeps its colours, and new discs get those of
     // their place.

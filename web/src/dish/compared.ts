@@ -4,15 +4,16 @@ import type {Laboratory} from "../engine/laboratory";
 import type {FromWorker, ToWorker} from "../engine/messages";
 import {button, dark, element, signed} from "../elements/page";
 import {SectorPaint} from "../drawing/paint";
-import {draw} from "../drawing/scene";
+import {draw, extentOf} from "../drawing/scene";
 import type {Coloring} from "../drawing/view";
 import {isWholePeriod} from "../drawing/strobe";
 import {Contacts} from "../drawing/contacts";
 import {fill, engineMessage, texts} from "../texts/texts";
 import {captionOf, findingOf, type Finding} from "./finding";
 
-/** How the first container is shown. */
+/** How the first container is shown, and the extent of both images, which have one scale. */
 interface Look {
+    extent: number;
     coloring: Coloring;
     strobe: boolean;
     isLapse: boolean;
@@ -35,8 +36,18 @@ export class ComparedContainer {
     private isNew = true; // its colours are those of the next frame
     private skipped = 0; // periods to skip after the first frame
     private room = 0;
+    /** The room that its image needs. */
+    get extent(): number {
+        return this.shown ? extentOf(this.shown.frame, this.room) : 0;
+    }
     private period = 1;
-    private look: Look = {coloring: "sector", strobe: false, isLapse: false, isByHand: false};
+    private look: Look = {
+        extent: 0,
+        coloring: "sector",
+        strobe: false,
+        isLapse: false,
+        isByHand: false,
+    };
 
     /** `given` are its parameters, `follows` whether it begins again together with the first
      *  container. */
@@ -52,12 +63,7 @@ export class ComparedContainer {
         this.caption.textContent = name;
         const end = button("×", ended, "close-compared");
         end.setAttribute("aria-label", texts.closeCompared);
-        this.figure = element(
-            "figure",
-            {id: "compared"},
-            this.canvas,
-            element("div", {className: "row-of-caption"}, this.caption, end),
-        );
+        this.figure = element("figure", {id: "compared"}, this.canvas, this.caption, end);
         this.worker = lab.newWorker();
         this.worker.onmessage = ({data}: MessageEvent<FromWorker>): void => this.hear(data);
     }
@@ -97,12 +103,9 @@ export class ComparedContainer {
                 view: "lab",
                 coloring: this.look.coloring,
                 sectors: this.paint.sectors,
-                trails: [],
-                event: undefined,
-                next: undefined,
                 omega: 0,
                 dark: dark(),
-                room: this.room,
+                extent: this.look.extent,
                 turns: shown.turns,
                 held: undefined,
                 contacts: this.contacts.recent,

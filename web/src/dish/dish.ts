@@ -6,7 +6,7 @@ import {layerOf, type MapKind} from "../drawing/maps";
 import type {Frame, Maps} from "../engine/messages";
 import {byId, dark, element, signed} from "../elements/page";
 import {SectorPaint} from "../drawing/paint";
-import {discAt, discOf, draw, pointedAt, recent} from "../drawing/scene";
+import {discAt, discOf, draw, extentOf, pointedAt} from "../drawing/scene";
 import type {Coloring, View} from "../drawing/view";
 import {isWholePeriod} from "../drawing/strobe";
 import {fill, texts} from "../texts/texts";
@@ -16,15 +16,11 @@ export type Views = View | "both" | MapKind;
 const mapKinds: readonly string[] = ["density", "flow", "spin"];
 const isMap = (view: Views): view is MapKind => mapKinds.includes(view);
 
-const trailLength = 45; // frames, at most
-const trailPeriods = 0.3; // longest trail, as in `swirl movie`
 const mapInterval = 700; // milliseconds
-const strobeTrail = 12; // images, one per period
 
 export class Dish {
     view: Views = "lab";
     coloring: Coloring = "sector";
-    trails = false;
     forces = false;
     private strobes = false;
     private readonly contacts = new Contacts();
@@ -48,7 +44,6 @@ export class Dish {
     private lastMaps = 0;
     private measures = ""; // what the worker was told
     private shown: Frame | undefined; // the last image of the stroboscope
-    private history: Float64Array[] = [];
     private dragged: number | undefined; // the disc under the pointer
     private held: number | undefined; // the disc selected by keys
 
@@ -58,7 +53,6 @@ export class Dish {
     ) {
         lab.on("begin", () => this.forget());
         lab.on("changed", () => {
-            this.history = [];
             this.maps = undefined;
         });
         lab.on("maps", (maps) => {
@@ -94,7 +88,6 @@ export class Dish {
     }
     set strobe(on: boolean) {
         this.strobes = on;
-        this.history = [];
         this.redraw();
     }
 
@@ -142,7 +135,6 @@ export class Dish {
 
     private forget(): void {
         this.measures = ""; // there may be another worker
-        this.history = [];
         if (this.compared?.follows && this.compared.last) this.compared.begin();
         this.shown = this.maps = undefined;
         this.paint.sectors.length = 0;
@@ -157,20 +149,8 @@ export class Dish {
         const before = this.shown?.frame;
         const stops = (this.strobe || this.isLapse) && !this.lab.isByHand;
         this.contacts.add(frame, this.lab.value("period"));
-        if (
-            stops &&
-            before &&
-            !isWholePeriod(frame.frame, this.lab.value("period")) &&
-            !frame.event
-        )
-            return;
-        if (before?.length === frame.frame.length) {
-            this.history.push(before);
-            if (this.history.length > trailLength) this.history.shift();
-        } else {
-            this.history = [];
-            this.paint.extend(frame.frame);
-        }
+        if (stops && before && !isWholePeriod(frame.frame, this.lab.value("period"))) return;
+        if (before?.length !== frame.frame.length) this.paint.extend(frame.frame);
         if (!this.isLapse && before?.[1] !== frame.frame[1] && this.paint.isMixed(frame.frame))
             this.paint.apply(frame.frame);
         this.shown = frame;
@@ -197,24 +177,26 @@ export class Dish {
               : "";
     }
 
+    /** The distance from S to which the images reach: both have one scale. */
+    private get extent(): number {
+        const {lab} = this,
+            {frame} = (this.shown ?? lab.last)!;
+        return Math.max(extentOf(frame, lab.maxDistance()), this.compared?.extent ?? 0);
+    }
+
     redraw(): void {
         const {lab, shown} = this;
         if (!shown) return;
-        const period = lab.value("period");
-        const past = this.trails
-            ? recent(this.history, shown.frame, (this.strobe ? strobeTrail : trailPeriods) * period)
-            : [];
+        const period = lab.value("period"),
+            {extent} = this;
         for (const [each, canvas] of Object.entries(this.canvases) as [View, HTMLCanvasElement][]) {
             draw(canvas, shown.frame, {
                 view: each,
                 coloring: this.coloring,
                 sectors: this.paint.sectors,
-                trails: past,
-                event: shown.event,
-                next: shown.next,
                 dark: dark(),
                 omega: this.forces && !lab.isByHand ? (2 * Math.PI) / period : 0,
-                room: lab.maxDistance(),
+                extent,
                 turns: shown.turns[0],
                 held: this.held,
                 contacts: this.contacts.recent,
@@ -231,6 +213,7 @@ export class Dish {
         this.compared?.redraw({
             coloring: this.coloring,
             strobe: this.strobe,
+            extent,
             isLapse: this.isLapse,
             isByHand: lab.isByHand,
         });
@@ -273,7 +256,7 @@ export class Dish {
         const {lab} = this;
         canvas.title = texts.dragHelp;
         const point = (event: PointerEvent): [number, number] =>
-            pointedAt(canvas, lab.last!.frame, lab.maxDistance(), event.clientX, event.clientY);
+            pointedAt(canvas, this.extent, event.clientX, event.clientY);
         canvas.addEventListener("pointerdown", (event) => {
             if (!lab.last) return;
             if (lab.isByHand) this.pointer = point(event);
@@ -301,13 +284,7 @@ export class Dish {
                 const finger = event.touches[0],
                     {lab} = this;
                 if (!lab.last || lab.isByHand || !finger || event.touches.length > 1) return;
-                const at = pointedAt(
-                    canvas,
-                    lab.last.frame,
-                    lab.maxDistance(),
-                    finger.clientX,
-                    finger.clientY,
-                );
+                const at = pointedAt(canvas, this.extent, finger.clientX, finger.clientY);
                 if (discAt(lab.last.frame, ...at) !== undefined) event.preventDefault();
             },
             {passive: false},

@@ -45,5 +45,8 @@ export function rotationText({mean, error}: Finding): string {
 export const captionOf = (name: string, finding: Finding, cause?: Cause): string =>
     (finding.mean === null
         ? name
-        : fill(texts.comparedResult, {name, rotation: rotationText(finding)})) +
+        : fill(texts.comparedResult, {
+              name,
+              rotation: rotationText(finding).replaceAll(" ", "\xa0"),
+          })) +
     (cause && cause.slip !== null ? `\n${fill(texts.slip, {slip: signed(cause.slip, 2)})}` : "");

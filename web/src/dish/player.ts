@@ -1,13 +1,15 @@
-// Time on the page: playing, its pace, single events, and the fast run to the averages.
+// Time on the page: playing, and the fast run to the averages.
 import type {Dish} from "./dish";
 import {minPeriods} from "../engine/estimates";
 import type {Laboratory} from "../engine/laboratory";
 import type {ToWorker} from "../engine/messages";
 
+const usualPace = 1, // periods per second
+    slowPace = 1 / 3;
 /** In the time-lapse, one image per period. Next to another container it is slower, because a few
  *  discs turn fast. */
 const lapsePace = 16,
-    comparedPace = 10; // periods per second
+    comparedPace = 10;
 const unseen = 10; // periods not shown, so that the first image of two containers shows their directions
 const averagedInLapse = minPeriods; // periods after the warm-up, so that the average has an error
 /** A period of more discs takes too long for a time-lapse. */
@@ -18,12 +20,9 @@ const watched = 3000; // milliseconds
 
 export class Player {
     isPlaying: boolean;
-    pace = 1; // periods per second
     /** The motion within a period is visible: at a third of the pace. Instead of a time-lapse, the
      *  periods to the averages are skipped. */
     isSlow = false;
-    /** The time-lapse starts automatically at the beginning and after a change of parameters. */
-    lapsesByItself = true;
     /** Period at which the time-lapse ends; 0: there is none. */
     private lapseEnd = 0;
     private skips = false; // the warm-up
@@ -56,7 +55,7 @@ export class Player {
             this.endLapse();
             if (byParameters && this.isPlaying)
                 this.lapseBegin = setTimeout(() => {
-                    if (this.isPlaying) this.lapseByItself();
+                    if (this.isPlaying) this.lapse();
                 }, watched);
         });
         lab.on("error", () => {
@@ -95,26 +94,16 @@ export class Player {
         this.report();
     }
 
-    /** Executes one event. */
-    step(): void {
-        this.setPlaying(false);
-        this.lab.send({kind: "step"});
-    }
-
     private get period(): number {
         const {last} = this.lab;
         return last ? last.frame[1]! + last.frame[2]! / this.lab.value("period") : 0;
     }
 
-    /** The time-lapse at the beginning and after a change. */
-    lapseByItself(): void {
-        if (this.lapsesByItself && (this.isPlaying || this.reducedMotion)) this.lapse();
-    }
-
-    /** Runs until there are averages, or further; after the warm-up it draws one image per period,
-     *  or none with reduced motion or at a slow pace. */
+    /** At the beginning and after a change of parameters: runs until there are averages. After the
+     *  warm-up it draws one image per period, or none with reduced motion or in slow motion. */
     lapse(): void {
         const {lab, dish} = this;
+        if (!this.isPlaying && !this.reducedMotion) return;
         if (!lab.last || lab.isByHand || this.lapseEnd > 0 || lab.last.frame[10]! > lapseDiscs)
             return;
         const now = Math.floor(this.period + 1e-6),
@@ -156,8 +145,8 @@ export class Player {
         const pace =
             this.lapseEnd === 0
                 ? this.isSlow || dish.coloring === "contacts"
-                    ? this.pace / 3
-                    : this.pace
+                    ? slowPace
+                    : usualPace
                 : dish.compared
                   ? comparedPace
                   : lapsePace;

@@ -2,14 +2,21 @@
 import type {Dish} from "./dish";
 import {icon} from "../elements/icons";
 import type {Laboratory} from "../engine/laboratory";
-import {button, byId, canvasFont, element, paper, quiet, save} from "../elements/page";
+import {
+    button,
+    byId,
+    canvasFont,
+    element,
+    paper,
+    quiet,
+    save,
+    withElements,
+} from "../elements/page";
 import {Recording} from "./recording";
 import {tableOf} from "../engine/series";
 import {pageEntries} from "../texts/start";
 import {texts} from "../texts/texts";
 import {encode} from "uqr";
-
-const copyButton = (): HTMLButtonElement => byId("copy") as HTMLButtonElement;
 
 /** The address of the page with the given parameters, in the language that was chosen. */
 export function addressOf(given: Record<string, string>): string {
@@ -75,6 +82,12 @@ export function showCode(link: string): void {
 
 export class Share {
     private readonly recording: Recording;
+    private readonly command = element("code", {id: "command"});
+    private readonly copies = button(
+        texts.copy,
+        () => void this.copy(this.command.textContent ?? "", this.copies, texts.copy),
+        "copy",
+    );
 
     constructor(
         private readonly lab: Laboratory,
@@ -82,6 +95,8 @@ export class Share {
     ) {
         this.recording = new Recording(() => dish.canvas);
         dish.laidOut = (): void => this.recording.stop();
+        const events = element("span", {id: "event-count"}),
+            hash = element("code", {id: "state-hash"});
         const address = (): string => new URL(addressOf(lab.given), location.href).href;
         const link = button(
             texts.link,
@@ -125,6 +140,10 @@ export class Share {
                 ),
                 button(texts.result, () => lab.send({kind: "result"}), "save-result"),
                 this.recording.panel,
+                element("p", {textContent: texts.commandLine}),
+                this.command,
+                this.copies,
+                element("p", {}, ...withElements(texts.stateHash, {events, hash})),
             ),
         );
         byId("share").replaceChildren(menu);
@@ -136,20 +155,16 @@ export class Share {
         document.addEventListener("pointerdown", (event) => {
             if (!menu.contains(event.target as Node)) menu.open = false;
         });
-        copyButton().addEventListener(
-            "click",
-            () => void this.copy(byId("command").textContent ?? "", copyButton(), texts.copy),
-        );
         lab.on("begin", () => {
             this.recording.stop();
-            for (const ofState of ["event-count", "state-hash"]) byId(ofState).textContent = "";
+            for (const ofState of [events, hash]) ofState.textContent = "";
             this.offerCommand();
         });
         lab.on("error", () => this.offerCommand());
         lab.on("changed", () => this.offerCommand());
         lab.on("frame", (frame) => {
-            byId("event-count").textContent = String(frame.events);
-            byId("state-hash").textContent = frame.hash;
+            events.textContent = String(frame.events);
+            hash.textContent = frame.hash;
             this.offerCommand(frame.command);
         });
         lab.on("result", (text) =>
@@ -176,7 +191,7 @@ export class Share {
 
     /** Without a running simulation there is no command. */
     private offerCommand(command = ""): void {
-        byId("command").textContent = this.lab.wasChanged ? texts.noCommand : command;
-        copyButton().disabled = this.lab.wasChanged || command === "";
+        this.command.textContent = this.lab.wasChanged ? texts.noCommand : command;
+        this.copies.disabled = this.lab.wasChanged || command === "";
     }
 }

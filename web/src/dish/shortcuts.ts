@@ -27,17 +27,15 @@ export function addShortcuts(lab: Laboratory, player: Player, transport: Transpo
     const click = (id: string) => (): void => byId(id).click();
     const acts: Record<string, () => void> = {
         " ": () => player.setPlaying(!player.isPlaying),
-        ".": () => player.step(),
         r: () => lab.begin(),
-        f: () => player.lapse(),
         s: click("strobe"),
-        t: click("trails"),
         v: () => transport.nextView(),
         c: () => transport.nextColoring(),
         p: click("paint"),
         h: click("by-hand"),
         "+": () => change(1),
         "-": () => change(-1),
+        o: () => open("viewing", detailsIn("viewing")),
         m: () => open("more", detailsIn("more")),
         l: () => open("lesson-start", () => null),
         e: () => open("explorer", detailsIn("explorer")),

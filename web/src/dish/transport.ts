@@ -1,4 +1,4 @@
-// The bar below the container: time, view and colours.
+// The bar below the container for time, and the panel for view and colours.
 import type {Dish, Views} from "./dish";
 import {icon, type Icon} from "../elements/icons";
 import type {Laboratory} from "../engine/laboratory";
@@ -78,26 +78,9 @@ export class Transport {
         this.play = iconButton("play", "play", texts.play, () =>
             player.setPlaying(!player.isPlaying),
         );
-        const speed = element("input", {
-            type: "range",
-            min: "-3",
-            max: "1",
-            step: "0.1",
-            value: String(Math.log10(player.pace)),
-            id: "speed",
-        });
-        speed.addEventListener("input", () => {
-            player.pace = 10 ** Number(speed.value);
-            this.keep("pace", Number(player.pace.toPrecision(2)), 1);
-        });
         const strobe = toggle("strobe", texts.strobe, texts.strobeHelp, (on) => {
             dish.strobe = on;
             this.keep("strobe", Number(on), 0);
-        });
-        const trails = toggle("trails", texts.trails, texts.trailsHelp, (on) => {
-            dish.trails = on;
-            dish.redraw();
-            this.keep("trails", Number(on), 0);
         });
         this.view = choice<Views>("choose-view", texts.view, texts.views, dish.view, (value) =>
             this.setView(value),
@@ -114,46 +97,23 @@ export class Transport {
                 "div",
                 {className: "buttons"},
                 this.play,
-                iconButton("step", "step", texts.step, () => player.step()),
                 iconButton("restart", "restart", texts.restart, () => lab.begin()),
-                iconButton("lapse", "lapse", texts.lapse, () => player.lapse()),
             ),
-            strobe,
-            trails,
+        );
+        byId("viewing").replaceChildren(
             element(
                 "details",
-                {id: "view-options"},
-                element("summary", {title: texts.options}, icon("more")),
-                element("div", {className: "menu", id: "options"}),
+                {},
+                element("summary", {textContent: texts.options}),
+                element("div", {className: "bar", id: "options"}, this.view, this.coloring, strobe),
             ),
-            element(
-                "label",
-                {id: "pace", className: "optional", title: texts.speedHelp},
-                element("span", {textContent: texts.speed}),
-                speed,
-            ),
-            this.view,
-            this.coloring,
         );
-        for (const each of [this.view, this.coloring, byId("step"), strobe, trails])
-            each.classList.add("optional");
-        byId("view-options").querySelector("summary")!.setAttribute("aria-label", texts.options);
         player.onChange(() => this.show());
         this.show();
     }
 
     /** What the address has, as far as it is known; call it when the dish is laid out. */
     readAddress(): void {
-        const pace = pageEntry("pace") ?? "1",
-            [slowest, fastest] = [0.001, 10];
-        if (pace.trim() !== "" && Number(pace) >= slowest && Number(pace) <= fastest) {
-            this.player.pace = Number(pace);
-            (byId("speed") as HTMLInputElement).value = String(Math.log10(this.player.pace));
-        } else
-            this.reject(
-                "pace",
-                fill(texts.invalidNumber, {name: "pace", text: pace, from: slowest, to: fastest}),
-            );
         const choose = <Word extends string>(
             name: string,
             words: Record<Word, string>,
@@ -169,10 +129,9 @@ export class Transport {
         };
         choose("view", texts.views, (view) => this.setView(view));
         choose("color", texts.colors, (color) => this.setColoring(color));
-        for (const id of ["strobe", "trails"])
-            choose(id, {0: "", 1: ""}, (on) => {
-                if (on === "1") byId(id).click();
-            });
+        choose("strobe", {0: "", 1: ""}, (on) => {
+            if (on === "1") byId("strobe").click();
+        });
     }
 
     /** A value of the address that is not valid is reported and forgotten. */

@@ -20,7 +20,7 @@ export function drawLegend(
     palette: Palette,
 ): void {
     if (size < 220 || (size < 320 && look.coloring === "contacts")) return; // its rows would hide discs
-    context.font = canvasFont(500, 12);
+    context.font = canvasFont(500, 13);
     context.textBaseline = "alphabetic";
     context.textAlign = "left";
     let y = size - margin;

@@ -1,4 +1,4 @@
-// Marks in the drawing of a frame: turns, events, forces, the selected disc, and the points S, C
+// Marks in the drawing of a frame: contacts, forces, the selected disc, and the points S, C
 // and M.
 import {frameDisc, frameHead} from "../engine/engine";
 import {slidingColor, type Palette} from "./palette";
@@ -16,12 +16,11 @@ function write(
     dy: number,
     palette: Palette,
     hair: number,
-    size = 13,
 ): void {
     context.save();
     context.translate(x, y);
     context.scale(1, -1);
-    context.font = canvasFont(600, size * hair);
+    context.font = canvasFont(600, (13 / 1.2) * hair);
     context.lineWidth = 3.5 * hair;
     context.lineJoin = "round";
     context.strokeStyle = palette.paper;
@@ -90,28 +89,6 @@ export function drawHeld(
     context.stroke();
 }
 
-/** Draws the impulse of an event as an arrow on the disc that received it. */
-export function drawEvent(
-    context: CanvasRenderingContext2D,
-    f: Float64Array,
-    frame: Frame,
-    look: DrawOptions,
-    hair: number,
-): void {
-    const e = look.event;
-    if (!e || e[1]! >= 2) return; // no impulse
-    const wall = e[1] === 1;
-    const k = frameHead + frameDisc * e[wall ? 2 : 3]!;
-    const [nx, ny] = [e[4]!, e[5]!];
-    const sign = wall ? -1 : 1; // the force on the disc, not on the wall
-    const jx = sign * (e[6]! * nx + e[7]! * ny),
-        jy = sign * (e[6]! * ny - e[7]! * nx);
-    const [x, y] = [f[k]!, f[k + 1]!];
-    const [ax, ay] = shown(frame, look.view, x, y);
-    const [bx, by] = shown(frame, look.view, x + 3 * jx, y + 3 * jy);
-    drawArrow(context, [ax, ay], [bx, by], "#b00020", 2 * hair);
-}
-
 function drawArrow(
     context: CanvasRenderingContext2D,
     [ax, ay]: [number, number],
@@ -174,33 +151,6 @@ export function drawForces(
             2 * hair,
         );
     }
-}
-
-/** Draws a ring around the disc or discs of the next event. */
-export function drawNext(
-    context: CanvasRenderingContext2D,
-    f: Float64Array,
-    frame: Frame,
-    look: DrawOptions,
-    hair: number,
-): void {
-    const e = look.next;
-    if (!e || e[1] === 2) return; // a path vertex, which concerns all discs
-    context.strokeStyle = "#b00020";
-    context.lineWidth = 2 * hair;
-    context.setLineDash([4 * hair, 3 * hair]);
-    for (const i of e[1] === 0 ? [e[2]!, e[3]!] : [e[2]!]) {
-        const k = frameHead + frameDisc * i;
-        context.beginPath();
-        context.arc(
-            ...shown(frame, look.view, f[k]!, f[k + 1]!),
-            f[k + 6]! + 3 * hair,
-            0,
-            2 * Math.PI,
-        );
-        context.stroke();
-    }
-    context.setLineDash([]);
 }
 
 /** S, the centre of the path; C, the centre of the container; M, the point of the wall farthest

@@ -4,37 +4,32 @@ import {drawBall, inRotatedAxes, type Orientation} from "./ball";
 import {frameDisc, frameHead, frameOrientation} from "../engine/engine";
 import {drawLegend} from "./legend";
 import {drawMap} from "./maps";
-import {drawContacts, drawEvent, drawForces, drawHeld, drawMarks, drawNext} from "./marks";
+import {drawContacts, drawForces, drawHeld, drawMarks} from "./marks";
 import {diverging, idColors, paletteOf, sectorColors, sequential, type Palette} from "./palette";
 import {drawSwirl, drawTurns, drawWallMark} from "./turns";
-import {head, shown, type DrawOptions, type Frame, type View} from "./view";
+import {head, shown, type DrawOptions, type Frame} from "./view";
 
 const swirlInset = 6; // pixels of the page, from the edge to the arrow of the swirl
 const border = 20; // pixels of the page: for the arc outside the wall, and the marks on it
 
+/** The distance of the wall from S in a frame, or in the farthest position of the container, `room`
+ *  from S. */
+export const extentOf = (f: Float64Array, room: number): number =>
+    f[7]! + Math.max(room, Math.hypot(f[3]!, f[4]!));
+
 /** Length units per pixel of the page, for an image of this width. */
-function unitsPerPixel(
-    frame: Frame,
-    look: {view: View; room: number; isSmall?: boolean},
-    width: number,
-): number {
-    const room = look.view === "lab" ? Math.max(look.room, Math.hypot(...frame.centre)) : 0;
-    return (
-        (frame.radius + room) /
-        Math.max(0.5 * width - (look.isSmall ? 2 : Math.min(border, 0.09 * width)), 0.25 * width)
-    );
-}
+const unitsPerPixel = (extent: number, width: number, isSmall = false): number =>
+    extent / Math.max(0.5 * width - (isSmall ? 2 : Math.min(border, 0.11 * width)), 0.25 * width);
 
 /** The point of the lab frame at these coordinates of the window. */
 export function pointedAt(
     canvas: HTMLCanvasElement,
-    f: Float64Array,
-    room: number,
+    extent: number,
     clientX: number,
     clientY: number,
 ): [number, number] {
     const box = canvas.getBoundingClientRect();
-    const scale = unitsPerPixel(head(f), {view: "lab", room}, box.width);
+    const scale = unitsPerPixel(extent, box.width);
     return [
         (clientX - box.left - box.width / 2) * scale,
         (box.top + box.height / 2 - clientY) * scale,
@@ -85,7 +80,8 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
         size = canvas.width,
         frame = head(f),
         palette = paletteOf(look.dark);
-    const scale = ratio / unitsPerPixel(frame, look, size / ratio),
+    const extent = look.view === "lab" ? look.extent : frame.radius,
+        scale = ratio / unitsPerPixel(extent, size / ratio, look.isSmall),
         hair = (1.2 * ratio) / scale;
     context.setTransform(1, 0, 0, 1, 0, 0);
     context.fillStyle = palette.paper; // so that a movie has it, too
@@ -101,7 +97,6 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
         drawTurns(context, frame, look.turns, palette, hair);
     }
     if (look.view === "lab" && !look.isSmall) drawMarks(context, frame, look, palette, hair);
-    drawTrails(context, f, look, hair);
     if (look.map) drawOutlines(context, f, frame, look, palette, hair);
     else drawDiscs(context, f, frame, look, frameAngle, scale, hair);
     if (look.coloring === "contacts") drawContacts(context, f, frame, look, palette, hair);
@@ -109,8 +104,6 @@ export function draw(canvas: HTMLCanvasElement, f: Float64Array, look: DrawOptio
         drawForces(context, f, frame, look.omega, palette, hair);
     if (look.held !== undefined && look.held < frame.discs)
         drawHeld(context, f, frame, look, palette, look.held, hair);
-    drawNext(context, f, frame, look, hair);
-    drawEvent(context, f, frame, look, hair);
     if (look.isSmall) return;
     if (look.view === "m") drawMarks(context, frame, look, palette, hair);
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
@@ -227,39 +220,4 @@ function drawOutlines(
 export function discOf(f: Float64Array, i: number): {x: number; y: number; radius: number} {
     const k = frameHead + frameDisc * i;
     return {x: f[k]!, y: f[k + 1]!, radius: f[k + 6]!};
-}
-
-/** The frames for the trails, oldest first: those at most `longest` before `now`. A fixed number of
- *  frames would cover the container if each takes much of a period. */
-export function recent(
-    history: Float64Array[],
-    now: Float64Array,
-    longest: number,
-): Float64Array[] {
-    return history.filter((f) => f[0]! >= now[0]! - longest);
-}
-
-function drawTrails(
-    context: CanvasRenderingContext2D,
-    f: Float64Array,
-    look: DrawOptions,
-    hair: number,
-): void {
-    const frames = [...look.trails, f];
-    for (let t = 1; t < frames.length; ++t) {
-        const [a, b] = [frames[t - 1]!, frames[t]!];
-        if (a.length !== b.length) continue;
-        const [before, after] = [head(a), head(b)];
-        context.globalAlpha = (0.6 * t) / frames.length;
-        context.lineWidth = hair;
-        for (let i = 0; i < after.discs; ++i) {
-            const k = frameHead + frameDisc * i;
-            context.strokeStyle = color(b, k, i, look);
-            context.beginPath();
-            context.moveTo(...shown(before, look.view, a[k]!, a[k + 1]!));
-            context.lineTo(...shown(after, look.view, b[k]!, b[k + 1]!));
-            context.stroke();
-        }
-    }
-    context.globalAlpha = 1;
 }

@@ -53,7 +53,7 @@ export function drawTurns(
 ): void {
     const whole = Math.trunc(turns),
         rest = turns - whole,
-        radius = frame.radius + 9 * hair;
+        radius = frame.radius + 8 * hair;
     if (!(frame.radius > 20 * hair)) return; // the container is a dot at this scale
     if (Math.abs(turns) < leastTurns) return;
     const [cx, cy] = frame.centre,
@@ -64,7 +64,7 @@ export function drawTurns(
     context.lineWidth = hair;
     for (let ring = 0; ring < Math.min(3, Math.abs(whole)); ++ring) {
         context.beginPath();
-        context.arc(cx, cy, radius + (4.8 + 2 * ring) * hair, 0, 2 * Math.PI);
+        context.arc(cx, cy, radius + (4.2 + 1.7 * ring) * hair, 0, 2 * Math.PI);
         context.stroke();
     }
     context.lineWidth = 6 * hair;

@@ -9,12 +9,9 @@ export interface DrawOptions {
     view: View;
     coloring: Coloring;
     sectors: readonly number[]; // a sector for each disc, for the colouring by sector
-    trails: Float64Array[]; // earlier frames, the oldest first
-    event: Float64Array | undefined;
-    next: Float64Array | undefined; // the next event, whose particles are marked
     omega: number; // frequency of the path; above 0, forces are drawn in the M-frame
     dark: boolean;
-    room: number; // largest distance of the container from S, for the scale of the lab frame
+    extent: number; // largest distance of the wall from S, for the scale of the lab frame
     turns: number; // turns of the cluster, an arc in the lab frame
     held: number | undefined; // the disc selected by keys
     contacts?: readonly Contact[]; // used by the colouring by contacts

@@ -279,7 +279,7 @@ export class Chart {
             this.marks.at === undefined ? most : Math.min(most, span[1] - span[0]),
         ); // whole numbers of discs
         const ys = ticksOf(...rise, box.height / pixelsOf(30));
-        setFont(context, 12);
+        setFont(context, 13);
         context.lineWidth = pixelsOf(1);
         context.strokeStyle = grid();
         context.fillStyle = ink();
@@ -301,7 +301,7 @@ export class Chart {
             ]);
             context.fillText(text, box.left - pixelsOf(6), y);
         }
-        setFont(context, 12, 600);
+        setFont(context, 13, 600);
         [context.textAlign, context.textBaseline] = ["center", "bottom"];
         context.fillText(labels[0], box.left + box.width / 2, this.canvas.height - pixelsOf(1));
         context.save();
@@ -340,7 +340,7 @@ export class Chart {
                 ],
                 [4, 4],
             );
-        setFont(context, 11);
+        setFont(context, 13);
         for (const note of notes) {
             const x = this.x(note.at),
                 isLate = x > box.left + 0.6 * box.width;

@@ -11,6 +11,13 @@ export function element<Tag extends keyof HTMLElementTagNameMap>(
     return made;
 }
 
+/** A text with elements in place of the names in braces. */
+export const withElements = (
+    text: string,
+    elements: Record<string, HTMLElement>,
+): (string | HTMLElement)[] =>
+    text.split(/\{(\w+)\}/).map((each, k) => (k % 2 ? elements[each]! : each));
+
 export function byId(id: string): HTMLElement {
     const found = document.getElementById(id);
     if (!found) throw new Error(`The page has no element '${id}'.`);

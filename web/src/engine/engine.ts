@@ -92,8 +92,6 @@ type Exports = {memory: WebAssembly.Memory; state_hash(): bigint} & Record<
     | "problem"
     | "frame"
     | "frame_size"
-    | "event"
-    | "next_event"
     | "time"
     | "events"
     | "rotation"
@@ -322,12 +320,6 @@ export class Engine {
      *  memory that grows gets a new buffer. */
     private numbers(at: number, size: number): Float64Array {
         return new Float64Array(this.out.memory.buffer, at, size).slice();
-    }
-    event(): Float64Array {
-        return this.numbers(this.out.event(), 9);
-    }
-    nextEvent(): Float64Array {
-        return this.numbers(this.out.next_event(), 9);
     }
     /** Turns of the cluster since the averages, or the warm-up, began: the mean over the discs, and
      *  the rigid body. */

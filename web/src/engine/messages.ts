@@ -22,7 +22,6 @@ export type ToWorker =
     /** Advances by this many whole periods without frames in between. Answered by progress and a
      *  frame. */
     | {kind: "skip"; periods: number}
-    | {kind: "step"}
     /** Other friction coefficients or another number for the same discs; another path from the next
      *  period on. */
     | {kind: "change"; given: Record<string, string>}
@@ -62,9 +61,6 @@ export interface Frame {
     hash: string;
     /** The command line that reproduces this state, if the simulation was not changed. */
     command: string;
-    /** The last event and the next one, after a single step. */
-    event?: Float64Array;
-    next?: Float64Array;
     /** Only a few times per second. */
     rotation?: Rotation;
     cause?: Cause;

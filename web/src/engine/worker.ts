@@ -41,7 +41,7 @@ function requireNoProblem(simulation: Engine, atTheEnd: boolean): void {
     if (problem) throw new UsageError(problem);
 }
 
-function show(single = false): void {
+function show(): void {
     if (!engine) return;
     const frame: Frame = {
         kind: "frame",
@@ -52,8 +52,7 @@ function show(single = false): void {
         hash: engine.stateHash,
         command: engine.command(),
     };
-    if (single) [frame.event, frame.next] = [engine.event(), engine.nextEvent()];
-    if (single || performance.now() - lastAverages > averagesInterval) {
+    if (performance.now() - lastAverages > averagesInterval) {
         frame.rotation = engine.rotation();
         frame.cause = engine.cause();
         lastAverages = performance.now();
@@ -103,7 +102,7 @@ function begin(given: Record<string, string>, events: number): void {
     send({kind: "started", run: runNumber, configuration});
     run(engine, events);
     now = engine.time;
-    show(events > 0);
+    show();
 }
 
 /** Advances to `target` within tickBudget. Returns whether it was reached. */
@@ -283,12 +282,6 @@ const handlers: {
     },
     search: ({rules, made}) =>
         module && send({kind: "search", next: new Engine(module).search(rules, made)}),
-    step: () => {
-        if (!engine) return;
-        engine.runEvents(1);
-        now = engine.time;
-        show(true);
-    },
 };
 
 onmessage = async ({data}: MessageEvent<ToWorker>): Promise<void> => {

@@ -176,7 +176,7 @@ export class Discovery {
         );
         // A frame without an address, as in a notebook, has no link.
         document.getElementById("discovery-link")!.hidden = location.protocol === "about:";
-        this.plot = new Chart(plotPlace, {height: innerWidth < 480 ? 150 : 210});
+        this.plot = new Chart(plotPlace, {height: innerWidth < 480 ? 140 : 210});
         this.draw();
     }
 

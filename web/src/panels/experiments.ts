@@ -1,4 +1,4 @@
-// The menu of further actions on the container: move it by hand, compare it.
+// Further actions on the container: move it by hand, compare it.
 import type {Dish} from "../dish/dish";
 import type {Laboratory} from "../engine/laboratory";
 import {button, byId, element, localized} from "../elements/page";
@@ -47,14 +47,6 @@ export function experiments(
     keep.addEventListener("change", () => {
         lab.keepsDiscs = keep.checked;
     });
-    const lapses = element("input", {
-        type: "checkbox",
-        id: "lapses",
-        checked: player.lapsesByItself,
-    });
-    lapses.addEventListener("change", () => {
-        player.lapsesByItself = lapses.checked;
-    });
     const paint = button(texts.paint, () => transport.setColoring("sector"), "paint");
     paint.title = texts.paintHelp;
     const show = (): void => {
@@ -69,6 +61,5 @@ export function experiments(
         paint,
         element("label", {title: texts.forcesHelp}, forces, ` ${texts.forces}`),
         element("label", {title: texts.keepHelp}, keep, ` ${texts.keep}`),
-        element("label", {title: texts.lapsesHelp}, lapses, ` ${texts.lapsesByItself}`),
     ];
 }

@@ -3,7 +3,7 @@ import type {FromWorker, ToWorker} from "../engine/messages";
 import type {Laboratory} from "../engine/laboratory";
 import {byId, dark, element} from "../elements/page";
 import {SectorPaint} from "../drawing/paint";
-import {draw} from "../drawing/scene";
+import {draw, extentOf} from "../drawing/scene";
 import {examples} from "../texts/texts";
 
 /** The thumbnails show this period. */
@@ -40,12 +40,9 @@ export function buildGallery(
                     view: "lab",
                     coloring: "sector",
                     sectors: paint.sectors,
-                    trails: [],
-                    event: undefined,
-                    next: undefined,
                     omega: 0,
                     dark: dark(),
-                    room,
+                    extent: extentOf(frame, room),
                     turns: 0,
                     held: undefined,
                     isSmall: true,

@@ -1,10 +1,9 @@
-// Files of the command line on the page: a result or a checkpoint sets the parameters, and the page
-// repeats the run and compares.
+// Results of the command line on the page: a result sets the parameters, and the page repeats the run
+// and compares.
 import {rates, type Estimate} from "../engine/engine";
 import type {Host, Values} from "../dish/host";
 import {button, element, withError} from "../elements/page";
 import {Runs} from "../engine/runs";
-import {checkpointLine} from "../texts/symbols";
 import {fill, symbols, texts} from "../texts/texts";
 
 /** A result of `swirl run --json`, as far as the page reads it. */
@@ -16,22 +15,25 @@ interface Result {
     state_hash?: string;
 }
 
-export type Opened =
-    | {kind: "result"; given: Values; result: Result}
-    | {kind: "checkpoint"; given: Values; events: number};
+/** A result, and the parameters of its run. */
+export interface Opened {
+    given: Values;
+    result: Result;
+}
 
 /** Thrown for a file that the page cannot read; `problem` is a key of texts.opened, `what` its
  *  wrong value. */
 export class NotReadable extends Error {
     constructor(
-        readonly problem: "unknown" | "damaged" | "noParameters" | "wrongValue",
+        readonly problem: "unknown" | "damaged" | "wrongValue",
         readonly what = "",
     ) {
         super(problem);
     }
 }
 
-const maxBytes = 50e6;
+/** The largest result has a list of sizes. A longer text would stop the page while it is read. */
+export const maxBytes = 10e6;
 /** Characters of a value: lists of sizes and points of a path have up to 100,000 entries. */
 const longestValue = 1000,
     longestList = 5e6;
@@ -84,19 +86,16 @@ function parsed(text: string): unknown {
 
 type Known = Parameters<typeof givenFrom>[1];
 
-/** Whether a file that begins in this way is a checkpoint; throws NotReadable if it is no result,
- *  either. */
-function isCheckpoint(begin: Uint8Array): boolean {
+/** Throws NotReadable if a file that begins in this way is no result. */
+function requireResult(begin: Uint8Array): void {
     const text = new TextDecoder("latin1").decode(begin.subarray(0, 40));
-    if (text.startsWith(checkpointLine)) return true;
     if (!/^\s*\{/.test(text)) throw new NotReadable("unknown");
-    return false;
 }
 
 /** Throws NotReadable. */
 export function readFile(bytes: ArrayBuffer, known: Known): Opened {
     const all = new Uint8Array(bytes);
-    if (isCheckpoint(all)) return readCheckpoint(all, known);
+    requireResult(all);
     const result = parsed(new TextDecoder().decode(all));
     if (!isObject(result)) throw new NotReadable("damaged");
     const {config, events} = result;
@@ -106,7 +105,7 @@ export function readFile(bytes: ArrayBuffer, known: Known): Opened {
     const given = givenFrom(config, known);
     if (Number.isInteger(warmup) && warmup !== 20) given["warmup"] = String(warmup);
     else delete given["warmup"];
-    return {kind: "result", given, result: result as unknown as Result};
+    return {given, result: result as unknown as Result};
 }
 
 const isNumber = (value: unknown): boolean => typeof value === "number" && Number.isFinite(value);
@@ -136,32 +135,12 @@ function requireValues(result: Record<string, unknown>): void {
         }
 }
 
-/** The layout is that of src/swirl/io/checkpoint.hpp. The state begins with the numbers of recorded
- *  frames, of logged events, and of events. */
-function readCheckpoint(all: Uint8Array, known: Known): Opened {
-    const view = new DataView(all.buffer, all.byteOffset, all.byteLength);
-    const line = all.indexOf(10) + 1;
-    if (line === 0 || all.length < line + 8) throw new NotReadable("damaged");
-    const size = Number(view.getBigUint64(line, true)),
-        state = line + 8 + size;
-    if (!(state + 32 <= all.length)) throw new NotReadable("damaged"); // also for a size beyond 2^53
-    const about = parsed(new TextDecoder().decode(all.subarray(line + 8, state)));
-    const identity = isObject(about) ? about["identity"] : undefined;
-    const config = isObject(identity) ? identity["parameters"] : undefined;
-    if (!isObject(config)) throw new NotReadable("noParameters");
-    return {
-        kind: "checkpoint",
-        given: givenFrom(config, known),
-        events: Number(view.getBigUint64(state + 24, true)),
-    };
-}
-
 export class OpenedFile {
     private readonly place = element("section", {id: "opened", hidden: true});
     private readonly choose = element("input", {
         type: "file",
         id: "open-file",
-        accept: ".json,.checkpoint,.partial",
+        accept: ".json",
     });
     private runs: Runs | undefined;
 
@@ -215,7 +194,7 @@ export class OpenedFile {
             return this.fail(fill(texts.opened.tooLarge, {name: file.name, most: maxBytes / 1e6}));
         try {
             // Another file is not read to its end.
-            isCheckpoint(new Uint8Array(await file.slice(0, 40).arrayBuffer()));
+            requireResult(new Uint8Array(await file.slice(0, 40).arrayBuffer()));
             this.show(readFile(await file.arrayBuffer(), this.host.parameters()), file.name);
         } catch (error) {
             if (error instanceof NotReadable)
@@ -233,46 +212,32 @@ export class OpenedFile {
         this.place.replaceChildren();
     }
 
-    private show(opened: Opened, name: string): void {
-        this.host.show(opened.given);
+    private show({given, result}: Opened, name: string): void {
+        this.host.show(given);
         const end = button("×", () => this.close(), "close-opened");
         end.setAttribute("aria-label", texts.opened.close);
         end.title = texts.opened.close;
-        const heading =
-            opened.kind === "result"
-                ? fill(texts.opened.result, {name})
-                : fill(texts.opened.checkpoint, {name, events: opened.events});
         const status = element("p", {id: "opened-status", textContent: texts.opened.parametersSet});
         status.setAttribute("role", "status");
         this.place.hidden = false;
         this.place.replaceChildren(
             element(
                 "div",
-                {className: "row-of-caption"},
-                element("h2", {textContent: heading}),
+                {},
+                element("h2", {textContent: fill(texts.opened.result, {name})}),
                 end,
             ),
             status,
         );
-        const result = opened.kind === "result" ? opened.result : undefined;
-        void this.compare(
-            opened.given,
-            opened.kind === "result" ? opened.result.events.total : opened.events,
-            result,
-            status,
-        );
+        void this.compare(given, result, status);
     }
 
     /** Repeats the run to its last event and shows both results. */
-    private async compare(
-        given: Values,
-        events: number,
-        result: Result | undefined,
-        status: HTMLElement,
-    ): Promise<void> {
+    private async compare(given: Values, result: Result, status: HTMLElement): Promise<void> {
+        const events = result.events.total;
         if (events > maxRepeated) {
             status.textContent = fill(texts.opened.tooLong, {events, most: maxRepeated});
-            if (result) this.place.append(comparison(result, undefined));
+            this.place.append(comparison(result, undefined));
             return;
         }
         status.textContent = texts.opened.comparing;
@@ -287,12 +252,12 @@ export class OpenedFile {
         if (this.runs !== runs) return;
         runs.stop();
         this.runs = undefined;
-        status.textContent = !result?.state_hash
+        status.textContent = !result.state_hash
             ? texts.opened.parametersSet
             : result.state_hash === page.state_hash
               ? texts.opened.sameHash
               : texts.opened.otherHash;
-        this.place.append(comparison(result ?? page, result ? page : undefined));
+        this.place.append(comparison(result, page));
     }
 }
 

@@ -4,7 +4,7 @@ import type {Parameter} from "../engine/engine";
 import type {Laboratory} from "../engine/laboratory";
 import {byId, element, localized, typedNumber} from "../elements/page";
 import {optionOf} from "../texts/symbols";
-import {texts} from "../texts/texts";
+import {fill, texts} from "../texts/texts";
 
 /** The inputs of a parameter: a text or a choice of words, and an optional slider. */
 interface Field {
@@ -154,10 +154,11 @@ export class Parameters {
         const title =
             `${texts.descriptions[row.name] ?? row.description}${row.unit ? ` (${row.unit})` : ""}\n` +
             optionOf(row.name);
+        const name = texts.labels[row.name] ?? row.name;
         const label = element(
             "label",
-            {htmlFor: id, title},
-            texts.labels[row.name] ?? row.name,
+            {htmlFor: row.slider ? `slider-${row.name}` : id, title},
+            name,
             ...(symbol
                 ? [
                       " ",
@@ -170,7 +171,6 @@ export class Parameters {
                   ]
                 : []),
         );
-        text.title = title;
         const isNumber = row.slider !== null || row.name === "mixture";
         text.addEventListener("input", () =>
             this.change(row.name, isNumber ? typedNumber(text.value.trim()) : text.value.trim()),
@@ -178,6 +178,7 @@ export class Parameters {
         const made = element("div", {className}, label, text, ...proposed);
         this.fields[row.name] = {parameter: row, row: made, text};
         if (!row.slider) return made;
+        text.setAttribute("aria-label", fill(texts.exactly, {name}));
         const [min, max, step] = row.slider.map(String) as [string, string, string];
         const slider = element("input", {
             type: "range",
@@ -185,9 +186,7 @@ export class Parameters {
             min,
             max,
             step,
-            title,
         });
-        slider.setAttribute("aria-label", texts.labels[row.name] ?? row.name);
         slider.addEventListener("input", () => this.change(row.name, slider.value));
         made.append(slider);
         this.fields[row.name]!.slider = slider;

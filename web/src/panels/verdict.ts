@@ -3,7 +3,7 @@ import type {ComparedContainer} from "../dish/compared";
 import {intervalOf} from "../engine/estimates";
 import {findingOf, rotationText, type Direction, type Finding} from "../dish/finding";
 import type {Laboratory} from "../engine/laboratory";
-import {byId, element, signed} from "../elements/page";
+import {byId, element, signed, withElements} from "../elements/page";
 import {settingOf} from "./settings";
 import {fill, symbols, texts} from "../texts/texts";
 
@@ -18,29 +18,22 @@ const percent = (x: number): string => `${x.toFixed(2)}%`;
 export class Verdict {
     private readonly band = element("div", {className: "band"});
     private readonly needle = element("div", {className: "needle"});
+    private readonly rate = element("span", {id: "rotation"});
     private readonly gauge = byId("gauge");
     private said = "";
     /** The container next to the first. */
     other: () => ComparedContainer | undefined = () => undefined;
 
     constructor(private readonly lab: Laboratory) {
-        const mark = (at: number, text: string): HTMLElement => {
-            const made = element("span", {className: "mark", textContent: text});
-            made.style.left = percent(position(at));
-            return made;
-        };
         const side = (direction: Direction): HTMLElement =>
             element("span", {className: `side ${direction}`, textContent: texts.sides[direction]});
         this.gauge.replaceChildren(
             element("div", {className: "sides"}, side("against"), side("with")),
             element("div", {className: "track"}, this.band, this.needle),
-            element(
-                "div",
-                {className: "marks"},
-                ...[-0.3, -0.1, 0, 0.1, 0.3, 1].map((at) => mark(at, signed(at, at % 1 ? 1 : 0))),
-            ),
+            element("div", {className: "reading"}, `${symbols.rotation} = `, this.rate),
         );
         this.gauge.style.setProperty("--zero", percent(position(0)));
+        this.gauge.title = texts.rotationHelp;
         this.gauge.setAttribute("role", "meter");
         this.gauge.setAttribute("aria-label", symbols.rotation);
         this.gauge.setAttribute("aria-valuemin", String(gaugeFrom));
@@ -117,20 +110,20 @@ export class Verdict {
 
     /** Shows a text with elements in place of the names in braces. */
     private write(words: string, elements: Record<string, HTMLElement>): void {
-        const parts = words.split(/\{(\w+)\}/).map((each, k) => (k % 2 ? elements[each]! : each));
         const text = words.replace(/\{(\w+)\}/g, (_, name: string) => elements[name]!.textContent!);
         if (text === this.said) return;
         this.said = text;
-        byId("headline").replaceChildren(...parts);
+        byId("headline").replaceChildren(...withElements(words, elements));
     }
 
     private drawGauge({mean, error, direction}: Finding): void {
         this.gauge.dataset["direction"] = direction ?? "";
         this.needle.hidden = this.band.hidden = mean === null;
-        this.gauge.setAttribute("aria-valuetext", rotationText(this.finding));
+        this.rate.textContent = rotationText(this.finding);
+        this.gauge.setAttribute("aria-valuetext", this.rate.textContent);
         this.gauge.setAttribute("aria-valuenow", String(mean ?? 0));
         if (mean === null) return;
-        this.needle.style.left = percent(position(mean));
+        this.gauge.style.setProperty("--at", percent(position(mean)));
         const [from, to] = [-1, 1].map((side) =>
             position(mean + side * intervalOf(error ?? 0)),
         ) as [number, number];
@@ -147,7 +140,6 @@ export class Verdict {
             time = last.frame[0]!;
         const differ = Math.abs(turns - rigid) > Math.max(0.1, 0.15 * Math.abs(turns));
         const pairs: [string, string, string, string][] = [
-            [symbols.rotation, rotationText(this.finding), texts.rotationHelp, "rotation"],
             [
                 texts.turned,
                 fill(texts.turns, {turns: signed(turns, 2)}),
@@ -161,7 +153,7 @@ export class Verdict {
                 "period-count",
             ],
         ];
-        if (lab.isByHand) (pairs.splice(0, 1), pairs.splice(1, 1)); // no period, so no averages
+        if (lab.isByHand) pairs.pop(); // there is no period
         const warmup =
             averages && averages.mean_by_time.blocks === 0 && !lab.isByHand
                 ? fill(texts.warmup, {periods: averages.warmup})

@@ -3,18 +3,7 @@
 // a notebook has no address of its own.
 
 /** Entries of the query that are not parameters of a run. */
-const ofThePage = [
-    "lang",
-    "embed",
-    "lesson",
-    "class",
-    "beside",
-    "view",
-    "color",
-    "pace",
-    "strobe",
-    "trails",
-];
+const ofThePage = ["lang", "embed", "lesson", "class", "beside", "view", "color", "strobe"];
 
 const entriesOf = (query: string): [string, string][] => [...new URLSearchParams(query)];
 const hasPage = typeof document !== "undefined";

@@ -26,9 +26,6 @@ export const commands = {
 /** A page of the documentation in the folder of the sources. */
 export const documentIn = (page: string): string => `docs/${page}.md`;
 
-/** The first line of a checkpoint begins with it (src/swirl/io/checkpoint.hpp). */
-export const checkpointLine = "swirl checkpoint ";
-
 /** Parameters whose option has another name than their key (src/swirl/run/names.cpp). */
 const optionOfKey: Record<string, string> = {path: "motion", path_phase: "start_angle"};
 
