@@ -9,6 +9,8 @@
 #include <iterator>
 #include <limits>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "baselines/all_pairs.hpp"
 #include "baselines/neighbor_lists.hpp"
@@ -428,6 +430,14 @@ const BenchRow* gas_of(const BenchResult& result, std::int64_t discs, const std:
     return nullptr;
 }
 
+std::string no_scene(const BenchSettings& settings) {
+    std::set<std::string> names;
+    for (const BenchScene& scene : bench_scenes())
+        if (settings.full || !scene.only_full) names.insert(scene.name);
+    return fmt::format("no scene has '{}' in its name\nhint: the scenes are {}", settings.only,
+                       fmt::join(names, "; "));
+}
+
 std::string where(const BenchRow& row) {
     return fmt::format("{}, N = {}, {}", row.scene, row.discs, row.width);
 }
@@ -442,6 +452,7 @@ BenchResult bench(const BenchSettings& settings) {
         if ((settings.full || !scene.only_full) &&
             scene.name.find(settings.only) != std::string::npos)
             chosen.push_back(scene);
+    if (chosen.empty()) throw Failure(no_scene(settings));
     std::vector<BenchScene> averaged;
     std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(averaged),
                  is_measured_with_averages);

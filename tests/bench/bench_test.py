@@ -119,6 +119,12 @@ class Bench(unittest.TestCase):
         for scene, _ in rows:
             self.assertIn(f"| {scene} |", table)
 
+    def test_a_text_that_no_scene_contains_is_an_error_that_names_the_scenes(self):
+        done = bench("--only", "nosuch", "--quiet", "--json", "-")
+        self.assertEqual((done.returncode, done.stdout), (1, ""))
+        self.assertIn("error: no scene has 'nosuch' in its name\nhint: the scenes are", done.stderr)
+        self.assertIn("container, mu = 1; ", done.stderr)
+
     def test_ratios_compares_only_scenes_of_both_commits(self):
         """bench/ratios.py, which reads the results of compare.sh."""
 
