@@ -54,6 +54,18 @@ class ImageTest(InFolder):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual(struct.unpack(">II", contents(self.path("x.png"))[16:24]), (123, 77))
 
+    def test_the_report_says_since_when_turns_are_counted(self):
+        for more, said in (
+            (("--start", "25"), r"period 25, 64x64 pixels, turns since period 15\.\n\Z"),
+            (("--start", "4"), r", turns since period 0\.\n\Z"),
+            (("--color", "spin"), r"64x64 pixels\.\n\Z"),  # without turns
+        ):
+            result = swirl(
+                "image", "--discs", "5", "--size", "64x64", *more, "--out", self.path("x.png")
+            )
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertRegex(result.stdout, said)
+
     def test_invalid_options_are_rejected(self):
         out = self.path("x.png")
         for arguments, word in (

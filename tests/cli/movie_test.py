@@ -199,23 +199,35 @@ class MovieTest(InFolder):
                 probe(out, "stream=width,height,nb_read_frames"), size.replace("x", ",") + ",2"
             )
 
-    def test_animation_of_the_readme_is_made_by_the_documented_command(self):
-        (call,) = [
-            words[1:]
-            for words in commands_in_the_documents()
-            if words[1] == "movie" and "docs/images/swirl.gif" in words
-        ]
-        call[call.index("docs/images/swirl.gif")] = self.path("swirl.gif")
-        result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=HANG)
-        self.assertEqual(result.returncode, 0, result.stderr)
+    def test_animations_of_the_readme_are_made_by_the_documented_commands(self):
         self.assertIn("](docs/images/swirl.gif)", read_text(os.path.join(SOURCE, "README.md")))
-        entries = "stream=codec_name,width,height,r_frame_rate,nb_read_frames"
-        made = self.path("swirl.gif")
-        stored = os.path.join(SOURCE, "docs", "images", "swirl.gif")
-        self.assertEqual(probe(made, entries), "gif,440,276,20/1,80")
-        self.assertEqual(probe(stored, entries), probe(made, entries))
-        self.assertLess(max(os.path.getsize(made), os.path.getsize(stored)), 1.5e6)
-        self.assert_looks_like(made, stored)
+        # Ten seconds; the GIF has the width of a phone, so that its captions can be read there.
+        for name, wanted in (
+            ("swirl.gif", "gif,390,146,10/1,100"),
+            ("swirl.mp4", "h264,720,270,20/1,200"),
+        ):
+            (call,) = [
+                words[1:]
+                for words in commands_in_the_documents()
+                if words[1] == "movie" and f"docs/images/{name}" in words
+            ]
+            made = self.path(name)
+            stored = os.path.join(SOURCE, "docs", "images", name)
+            call[call.index(f"docs/images/{name}")] = made
+            result = subprocess.run([SWIRL, *call], capture_output=True, text=True, timeout=HANG)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            entries = "stream=codec_name,width,height,r_frame_rate,nb_read_frames"
+            self.assertEqual(probe(made, entries), wanted)
+            self.assertEqual(probe(stored, entries), wanted)
+            self.assertLess(max(os.path.getsize(made), os.path.getsize(stored)), 1e6)
+            self.assert_looks_like(made, stored)
+
+    def test_a_movie_with_the_defaults_is_small(self):
+        out = self.path("x.mp4")
+        result = swirl("--discs", "48", "--size", "1280x720", "--seconds", "2", "--out", out)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # Ten seconds take less than 3 MB. The first frame is a part of both.
+        self.assertLess(os.path.getsize(out), 0.62e6)
 
     def assert_looks_like(self, made, stored):
         """Fonts and versions of cairo may differ, so images are compared by their signal-to-noise
@@ -444,6 +456,11 @@ class MovieTest(InFolder):
         self.assert_usage_error(swirl("--out", out, "--forces"), "--view m")
         self.assert_usage_error(swirl("--out", out, "--discs", "70"))
         self.assert_usage_error(swirl("--out", out, "--compare", "70"))
+        for wrong in ("8,", "x", "0", "1,2,3,4,5,6"):
+            self.assert_usage_error(swirl("--out", out, "--compare", wrong), "--compare", wrong)
+        self.assert_usage_error(
+            swirl("--out", out, "--captions-only", "--title", "x"), "--captions-only"
+        )
         self.assert_usage_error(swirl("--out", out, "--rolling-ball", "2"), "2")
         self.assert_usage_error(
             swirl("--out", self.path("x.gif"), "--seconds", "600", "--size", "1920x1080"), "memory"

@@ -10,6 +10,7 @@
 #include "pixels.hpp"
 #include "swirl/io/trajectory.hpp"
 #include "swirl/render/movie.hpp"
+#include "swirl/render/source_player.hpp"
 #include "swirl/render/still.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
@@ -51,6 +52,22 @@ class Recording : public ::testing::Test {
     fs::path folder_;
     std::vector<Snapshot> frames_;
 };
+
+TEST(SourcePlayer, TrailsNeverGoBackInTime) {
+    FrameSource source;
+    double last = 0.0;
+    source.open = [&last] {
+        return Playback([&last](double periods) {
+            EXPECT_GE(periods, last);
+            last = periods;
+            return Snapshot{};
+        });
+    };
+    SourcePlayer player(source, 0.3, false, 20.0);
+    // Some of these instants are points of the trails, apart from rounding.
+    for (int k = 0; k < 600; ++k) player.at(20.0 + k * 2.0 / 60.0);
+    EXPECT_GT(last, 39.0);
+}
 
 TEST(FrameSource, EqualsTheStateOfTheEngine) {
     const RunConfig config = small_run();

@@ -59,6 +59,8 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
             {"--plot", &texts->plot, "Plot of the cluster's rotation against time"},
             {"--theme", &texts->theme, "Colour theme [light]", one_of(names_of(themes))},
             {"--title", &texts->title, "Title above the image", "TEXT"},
+            {"--captions-only", &texts->captions,
+             "Large captions, without title, clock and parameters"},
             {"--no-annotations", &texts->bare, "Container and discs only, no text or markers"},
             {"--size", &texts->size, "Image size in pixels [1920x1080]", "WxH"},
         });
@@ -107,6 +109,11 @@ Appearance appearance(const AppearanceTexts& texts, Size otherwise) {
     result.texts = !texts.bare;
     result.points = !texts.bare && (texts.forces || texts.angles);  // they refer to S and M
     result.path = !texts.bare;
+    result.captions_only = texts.captions;
+    if (texts.captions && (texts.bare || !texts.title.empty()))
+        throw UsageError(
+            "--captions-only leaves the captions only, so it excludes --title and "
+            "--no-annotations.");
     if (texts.turned && texts.view == "m")
         throw UsageError(
             "--turned-angle shows the rotation in the lab frame.\n"

@@ -16,7 +16,8 @@ struct Size;
 struct AppearanceTexts {
     std::string view, color = "sector", theme = "light", title, size;
     std::optional<double> trail_length;
-    bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false;
+    bool trails = false, forces = false, plot = false, turned = false, angles = false, bare = false,
+         captions = false;
 };
 
 std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand);

@@ -37,11 +37,13 @@ void draw_and_report(const ImageCall& call) {
                                                                  : double(default_warmup));
     config.at = start + duration;
     if (const auto wrong = problem(config)) throw UsageError(*wrong);
-    make_still(config);
+    const double counted = make_still(config);
     print_source_warnings(config.sources, config.appearance);
     if (!call.quiet)
-        print_all(fmt::format("{}: period {:g}, {}x{} pixels.\n", call.out, start,
-                              config.appearance.size.width, config.appearance.size.height));
+        print_all(fmt::format(
+            "{}: period {:g}, {}x{} pixels{}.\n", call.out, start, config.appearance.size.width,
+            config.appearance.size.height,
+            config.appearance.turned ? fmt::format(", turns since period {:g}", counted) : ""));
 }
 
 void add_image_command(Subcommand& subcommand) {

@@ -17,6 +17,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/measurements.hpp"
+#include "swirl/run/reading.hpp"
 
 namespace swirl {
 
@@ -24,7 +25,7 @@ std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand) {
     auto texts = std::make_shared<SourceTexts>();
     subcommand.in("Source").add({
         {"FILE", &texts->file, "Recording or TOML file, instead of a new run", ""},
-        {"--compare", &texts->compared_discs, "Second container, with N discs", "N"},
+        {"--compare", &texts->compared, "Further containers on the left, with N discs", "N[,N…]"},
         {"--rolling-ball", &texts->slip, "Minimal model: one ball; 0 slips, 1 rolls", "S"},
         {"--ball-radius", &texts->ball_radius, "Radius of the ball in disc radii [4.3]", "NUMBER"},
     });
@@ -73,6 +74,23 @@ void reject_scale_options(const SourceTexts& texts) {
     if (texts.first_image != 0) throw_option_of_tracks("over-first", texts.file);
 }
 
+/// The numbers in a list "8,38". Throws UsageError.
+std::vector<std::int64_t> compared_in(const std::string& list) {
+    constexpr std::size_t most = 5;
+    std::vector<std::int64_t> numbers;
+    if (list.empty()) return numbers;
+    for (const std::string_view part : split(list, ",")) {
+        const auto number = read_whole_number(part);
+        if (!number || *number < 1 || numbers.size() == most)
+            throw UsageError(
+                fmt::format("--compare is '{}', but it must be from 1 to {} numbers of discs, for "
+                            "example 8,38.",
+                            list, most));
+        numbers.push_back(*number);
+    }
+    return numbers;
+}
+
 /// Only the options of the container apply to tracks, not the other options of a run.
 FrameSource tracked_in(const SourceTexts& texts) {
     TrackTexts camera = texts.camera;
@@ -108,7 +126,7 @@ std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
     if (!texts.file.empty()) try_reading(texts.file);
     const bool is_tracks = !texts.file.empty() && !is_trajectory(texts.file);
     if (!is_tracks) reject_scale_options(texts);
-    if (!texts.file.empty() && (texts.compared_discs || texts.slip))
+    if (!texts.file.empty() && (!texts.compared.empty() || texts.slip))
         throw UsageError(fmt::format(
             "--compare and --rolling-ball need a run, but '{}' is a recording.", texts.file));
     if (is_tracks) return {tracked_in(texts)};
@@ -120,14 +138,13 @@ std::vector<FrameSource> frame_sources(const SourceTexts& texts) {
         return {recorded(texts.file)};
     }
     const RunConfig config = resolve(*texts.parameters);
-    if (texts.slip && texts.compared_discs)
+    if (texts.slip && !texts.compared.empty())
         throw UsageError("--rolling-ball and --compare exclude each other.");
     if (texts.slip) return {rolling(ball_of(texts, config), config.amplitude, config.period)};
     std::vector<FrameSource> containers{simulated(config, &stop_signal())};
-    if (texts.compared_discs) {
-        const RunConfig other = with_discs(config, *texts.compared_discs);
-        containers.insert(containers.begin(), simulated(other, &stop_signal()));
-    }
+    for (const std::int64_t discs : compared_in(texts.compared))
+        containers.insert(containers.end() - 1,
+                          simulated(with_discs(config, discs), &stop_signal()));
     return containers;
 }
 

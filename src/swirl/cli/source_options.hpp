@@ -23,7 +23,7 @@ struct SourceTexts {
     TrackTexts camera;
     std::string images;  // images of the camera
     std::int64_t first_image = 0;
-    std::optional<std::int64_t> compared_discs;
+    std::string compared;  // numbers of discs
     std::optional<double> slip;
     double ball_radius = 0.5 * paper_container_radius;
 };
@@ -41,7 +41,7 @@ std::shared_ptr<SourceTexts> add_source_options(Subcommand& subcommand);
 void take_video_config(Subcommand& subcommand, SourceTexts& texts, const std::string& command,
                        const std::vector<std::vector<std::string>>& instead = {});
 
-/// One source, or two with --compare. Throws UsageError or Failure.
+/// One source, or with --compare one for each number. Throws UsageError or Failure.
 std::vector<FrameSource> frame_sources(const SourceTexts& texts);
 
 /// Throws UsageError if an output file is the recording or one of the camera images.

@@ -29,10 +29,11 @@ std::optional<std::string> movie_problem(MovieFormat format, Size size, int fram
 
 class MovieWriter {
   public:
-    /// Starts ffmpeg. `loss` is the constant rate factor of H.264: 0 is lossless, 18 invisible in a
-    /// drawing. Throws DrawFailure if ffmpeg is not installed or does not start.
+    /// Starts ffmpeg. `loss` is the constant rate factor of H.264; 0 is lossless. With 24, ten
+    /// seconds of 48 discs at 1280x720 take less than 3 MB. Throws DrawFailure if ffmpeg is not
+    /// installed or does not start.
     MovieWriter(const std::string& path, MovieFormat format, Size size, int frames_per_second,
-                int loss = 18);
+                int loss = 24);
     /// Without finish(): ends ffmpeg and removes the temporary file.
     ~MovieWriter();
     MovieWriter(const MovieWriter&) = delete;

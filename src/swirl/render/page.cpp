@@ -118,8 +118,10 @@ std::vector<Panel> panels_of(const std::vector<FrameSource>& sources,
             Panel panel{frame, "", source.container_radius, source.amplitude,
                         appearance.turned && in_lab};
             const std::string name = in_lab ? "lab frame" : "M-frame";
+            const bool is_named = appearance.captions_only && appearance.frames.size() == 1;
+            const std::string& alone = is_named ? source.caption : name;
             if (appearance.texts)
-                panel.caption = sources.size() == 1             ? name
+                panel.caption = sources.size() == 1             ? alone
                                 : appearance.frames.size() == 1 ? source.caption
                                                                 : source.caption + ", " + name;
             panels.push_back(panel);
@@ -144,7 +146,16 @@ SheetSpec spec_of(const std::vector<FrameSource>& sources, const Appearance& app
     SheetSpec spec;
     spec.size = appearance.size;
     spec.style = appearance;
-    spec.clock = appearance.texts && appearance.clock;
+    spec.turns_since = appearance.turns_since;
+    spec.panels = panels_of(sources, appearance);
+    spec.clock = appearance.texts && appearance.clock && !appearance.captions_only;
+    if (appearance.captions_only) {
+        // What a small image cannot show, and what makes a GIF large.
+        spec.style.path = spec.style.orientation = false;
+        spec.style.swirl_size = 1.55;
+        spec.has_large_captions = true;
+        return spec;
+    }
     // In slow motion the clock must still change visibly.
     if (duration > 0.0)
         spec.clock_decimals =
@@ -154,7 +165,6 @@ SheetSpec spec_of(const std::vector<FrameSource>& sources, const Appearance& app
         if (spec.title.empty() && sources.size() == 1) spec.title = sources[0].caption;
         spec.parameters = shared_parameters(sources);
     }
-    spec.panels = panels_of(sources, appearance);
     return spec;
 }
 

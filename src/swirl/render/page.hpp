@@ -25,7 +25,9 @@ struct Appearance : SceneStyle {
     bool clock = true;
     bool plot = false;
     bool turned = false;  // an arc that shows the turns of the cluster, lab frame
+    std::optional<double> turns_since = {};  // the period that an image names next to the turns
     bool texts = true;
+    bool captions_only = false;  // large, without title, clock and parameters
     std::string title;
     Size size{1920, 1080};
 };

@@ -388,8 +388,8 @@ void draw_arc_head(const Canvas& canvas, Vec2 c, double radius, double angle, do
 /// is no arrow while that number is 0.00, because nothing has turned then.
 void draw_turn_arc(const Canvas& canvas, const View& view, const SceneStyle& style,
                    const SceneContent& content) {
-    constexpr double least = 0.005;
-    if (!content.turns || view.frame != Frame::lab || std::abs(*content.turns) < least) return;
+    if (!content.turns || view.frame != Frame::lab || std::abs(*content.turns) < least_turns)
+        return;
     cairo_t* cairo = canvas.cairo();
     const double unit = radius_on_page(view, content.now), width = 0.035 * unit;
     const double radius = unit * (1.0 + wall_thickness + 0.045);
@@ -414,10 +414,12 @@ void draw_swirl(const Canvas& canvas, const View& view, const SceneStyle& style,
                 const Snapshot& now) {
     const double turn = cross(now.container_centre, now.container_velocity);
     if (!style.swirl || view.frame != Frame::lab || turn == 0.0 || !(view.half_side > 0.0)) return;
-    const double half = view.half_side, radius = 0.085 * half, width = 0.02 * half;
-    const double size = 0.075 * half;
+    const double half = view.half_side, unit = style.swirl_size * half;
+    const double radius = 0.085 * unit, width = 0.02 * unit, size = 0.075 * unit;
     if (size < min_font_size) return;
-    const Vec2 c{view.centre.x - 0.86 * half, view.centre.y + 0.78 * half};
+    // The word stays in the corner.
+    const Vec2 c{view.centre.x - 0.945 * half + radius,
+                 view.centre.y + 0.951 * half - 1.15 * size - radius};
     // Three quarters around; y points down on the page.
     const double direction = turn > 0.0 ? -1.0 : 1.0, begin = 0.25 * pi - direction * 0.25 * pi;
     const double end = begin + direction * 1.5 * pi;

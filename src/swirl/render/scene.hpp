@@ -38,6 +38,9 @@ inline constexpr std::pair<std::string_view, Coloring> colorings[] = {
     {"speed", Coloring::speed},   {"slip", Coloring::slip},     {"none", Coloring::none},
     {"id", Coloring::id}};
 
+/// The number of turns is 0.00 below it: nothing has turned, so there is no arc, sign or colour.
+inline constexpr double least_turns = 0.005;
+
 struct SceneStyle {
     Theme theme = dark_theme();
     Coloring coloring = Coloring::none;
@@ -48,6 +51,7 @@ struct SceneStyle {
     double point_size = 1.0;  // size of the letters S, C, M relative to that in a movie
     bool path = true;         // path of C
     bool swirl = false;       // an arrow in the direction of the swirl; lab frame only
+    double swirl_size = 1.0;  // the size of that arrow
     bool forces = false;      // centrifugal and Coriolis force on each disc; M-frame only
     bool angles = false;      // θ at the wall; M-frame only
     /// Highlights the slice of the floor around this θ; M-frame only (paper, Fig. 2a).

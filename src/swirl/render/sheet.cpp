@@ -72,6 +72,9 @@ void Sheet::lay_out(const Canvas& canvas) {
     margin_ = 0.026 * shorter;
     // Small pages have relatively larger letters, as long as they leave space for the container.
     em_ = std::max(0.0235 * shorter, std::min(11.0, 0.038 * shorter));
+    // Letters follow the width of the page: a page that is shown in a column has that width.
+    em_ = std::max(em_, std::min(0.0235 * 9.0 / 16.0 * width, 0.038 * height));
+    if (spec_.has_large_captions) em_ = std::max(em_, std::min(width / 40.0, 0.08 * height));
     const auto count = static_cast<double>(spec_.panels.size());
     const double side = height - 2.0 * margin_;
     const double left_over = width - count * side - (count + 2.0) * margin_;
@@ -293,17 +296,31 @@ void Sheet::draw_static(const Canvas& canvas) const {
 void Sheet::draw_panel(const Canvas& canvas, std::size_t k, const SceneContent& content) const {
     draw_scene(canvas, views_[k], spec_.style, content);
     const Panel& panel = spec_.panels[k];
-    if (!content.turns || !panel.shows_turns || em_ < min_font_size) return;
+    // Without captions there is no line for the number, and the arc is enough.
+    if (!content.turns || !panel.shows_turns || caption_height() == 0.0) return;
     // The number is on the line of the captions, which the container never reaches.
     const double reach = views_[k].pixels_per_unit * panel.container_radius;
     const double turns = content.turns_with_swirl();
-    const std::string number = (turns < 0.0 ? "−" : "+") + fixed(std::abs(turns), 2) + " turns";
+    const bool turned = std::abs(turns) >= least_turns;
+    const std::string sign = !turned ? "" : turns < 0.0 ? "−" : "+";
+    const std::string number = sign + fixed(std::abs(turns), 2) + " turns";
     const Theme& theme = spec_.style.theme;
-    draw_label(canvas, number, {views_[k].centre.x - 1.24 * reach, caption_line_},
-               {.size = 1.1 * em_,
-                .color = theme.direction(turns >= 0.0),
-                .bold = true,
-                .even_digits = true});
+    const Vec2 left{views_[k].centre.x - 1.24 * reach, caption_line_};
+    const double width =
+        draw_label(canvas, number, left,
+                   {.size = 1.1 * em_,
+                    .color = turned ? theme.direction(turns > 0.0) : theme.faint_ink,
+                    .bold = true,
+                    .even_digits = true});
+    if (!spec_.turns_since) return;
+    LabelStyle style{.size = em_, .color = theme.faint_ink};
+    const std::string since = fmt::format(" since period {:g}", *spec_.turns_since);
+    const double end = views_[k].centre.x + views_[k].half_side;
+    const double room =
+        end - left.x - width - 0.5 * em_ - label_width(canvas, panel.caption, style);
+    style.size = fitting_size(canvas, since, style, room);
+    if (style.size >= min_font_size)
+        draw_label(canvas, since, {left.x + width, caption_line_}, style);
 }
 
 void Sheet::draw_frame(const Canvas& canvas, std::span<const SceneContent> contents,

@@ -33,6 +33,8 @@ struct SheetSpec {
     std::optional<PlotStyle> plot;  // the layout sets its `em`
     bool clock = true;              // the running number of periods
     int clock_decimals = 2;
+    std::optional<double> turns_since = {};  // the period that is written next to the turns
+    bool has_large_captions = false;         // legible where the page is shown on a phone
 };
 
 class Sheet {

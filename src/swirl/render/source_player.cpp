@@ -58,12 +58,12 @@ std::shared_ptr<const SourceState> SourcePlayer::state_at(double periods) const 
 }
 
 void SourcePlayer::extend_trails(double periods) {
-    const auto last = static_cast<std::int64_t>(std::ceil(periods * trail_points)) - 1;
     const double first =
         std::max(source_.from.value_or(0.0), periods - trail_length_) * trail_points;
     next_ = std::max(next_, static_cast<std::int64_t>(std::ceil(first)));
-    for (; next_ <= last; ++next_)
-        past_.push_back(state_at(static_cast<double>(next_) / trail_points));
+    // The times themselves are compared, because a playback never goes back by a rounding.
+    const auto time = [&] { return static_cast<double>(next_) / trail_points; };
+    for (; time() < periods; ++next_) past_.push_back(state_at(time()));
     const auto longest = static_cast<std::size_t>(std::ceil(trail_length_ * trail_points));
     while (past_.size() > longest) past_.pop_front();
 }

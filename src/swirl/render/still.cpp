@@ -43,10 +43,12 @@ std::optional<std::string> problem(const StillConfig& config) {
     return std::nullopt;
 }
 
-void make_still(const StillConfig& config) try {
+double make_still(const StillConfig& config) try {
     // The plot covers the ten periods before the instant.
     const double begin = std::max(config.sources.front().from.value_or(0.0), config.at - 10.0);
-    const Page page(config.sources, config.appearance, begin, config.at);
+    Appearance appearance = config.appearance;
+    appearance.turns_since = begin;
+    const Page page(config.sources, appearance, begin, config.at);
     std::vector<Moment> moments;
     for (std::size_t k = 0; k < config.sources.size(); ++k) {
         moments.push_back(page.player(k, config.at).at(config.at));
@@ -60,6 +62,7 @@ void make_still(const StillConfig& config) try {
     page.sheet().draw_static(canvas);
     page.draw(canvas, moments, config.at);
     write_image(config.out, canvas.finish());
+    return begin;
 } catch (const DrawFailure& failure) {
     throw Failure(failure.what());
 }

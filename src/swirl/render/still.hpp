@@ -26,8 +26,8 @@ std::optional<ImageFormat> image_format(const std::string& path);
 /// An error message if this image cannot be drawn.
 std::optional<std::string> problem(const StillConfig& config);
 
-/// Draws the image and writes it. Throws Failure.
-void make_still(const StillConfig& config);
+/// Draws the image and writes it. Returns the period since which it counts turns. Throws Failure.
+double make_still(const StillConfig& config);
 
 /// Writes the image file atomically (io/atomic_file.hpp). Throws Failure.
 void write_image(const std::filesystem::path& file, const std::string& bytes);
