@@ -9,6 +9,7 @@ links of the pages to source files work unchanged:
 import os
 import posixpath
 import re
+import struct
 from html import escape
 from io import BytesIO
 
@@ -48,6 +49,7 @@ html_css_files = ["site.css"]
 
 # The public address of the site, which the picture of a link preview needs (web/site.sh).
 ADDRESS = os.environ.get("SWIRL_SITE_ADDRESS", "")
+html_baseurl = ADDRESS  # Sphinx writes the canonical address of each page
 PROJECT = ["/README", "/gallery", "/examples/index"]
 
 
@@ -106,9 +108,47 @@ def describe_page(app, pagename, templatename, context, doctree):
     }
     if ADDRESS:
         tags["image"] = f"{ADDRESS}preview.png"
-    context["metatags"] = context.get("metatags", "") + "".join(
-        f'<meta property="og:{name}" content="{escape(text)}" />' for name, text in tags.items()
+    context["metatags"] = (
+        context.get("metatags", "")
+        + f'<meta name="description" content="{escape(tags["description"])}" />'
+        + "".join(
+            f'<meta property="og:{name}" content="{escape(text)}" />' for name, text in tags.items()
+        )
     )
+    if "body" in context:
+        context["body"] = with_late_images(scrollable_tables(context["body"]), app.srcdir)
+
+
+def scrollable_tables(body):
+    """A wide table scrolls in a box of its own, also by the keyboard."""
+    box = '<div class="scrolls" tabindex="0" role="group" aria-label="Table">'
+    return body.replace("<table", f"{box}<table").replace("</table>", "</table></div>")
+
+
+def with_late_images(body, source):
+    """Images are loaded when they are near the window. Their sizes keep the place of each."""
+
+    def late(found):
+        name = found[1]
+        for place in ("docs/images", "gallery", "examples"):
+            path = os.path.join(source, place, name)
+            size = image_size(path) if os.path.exists(path) else None
+            if size:
+                return f'{found[0]} loading="lazy" width="{size[0]}" height="{size[1]}"'
+        return found[0]
+
+    return re.sub(r'<img alt="[^"]*" src="[^"]*_images/([^"/]+)"', late, body)
+
+
+def image_size(path):
+    """(width, height) of a PNG or GIF; None for other images."""
+    with open(path, "rb") as opened:
+        head = opened.read(24)
+    if head.startswith(b"\x89PNG"):
+        return struct.unpack(">II", head[16:24])
+    if head.startswith(b"GIF8"):
+        return struct.unpack("<HH", head[6:10])
+    return None
 
 
 def resolve_folder(app, env, node, contnode):

@@ -30,15 +30,25 @@ def write(path, text):
         opened.write(text)
 
 
+def video(source, more=""):
+    """A movie, which is loaded when it plays; until then its first image is shown."""
+    first = source.removesuffix(".mp4") + ".jpg"
+    return f'<video src="{source}" poster="{first}" {more} loop muted playsinline preload="none"></video>'
+
+
+def rows_of(root, name):
+    """The rows of a table whose columns are separated by bars."""
+    with open(os.path.join(root, name), encoding="utf-8") as opened:
+        return [
+            line.rstrip("\n").split(" | ") for line in opened if line.strip() and line[0] != "#"
+        ]
+
+
 def gallery_page(root, source, gallery):
     page = [
         "# Gallery\n\nFor every reader: images and movies, each with the command that makes it.\n"
     ]
-    with open(os.path.join(root, "web/gallery.txt"), encoding="utf-8") as opened:
-        rows = [
-            line.rstrip("\n").split(" | ") for line in opened if line.strip() and line[0] != "#"
-        ]
-    for caption, command, *stored in rows:
+    for caption, command, *stored in rows_of(root, "web/gallery.txt"):
         shown = stored[0] if stored else "gallery/" + re.search(r"--out (\S+)", command)[1]
         if not stored:
             made = os.path.join(gallery, os.path.basename(shown))
@@ -49,26 +59,44 @@ def gallery_page(root, source, gallery):
         page.append(
             f"![{alt}]({shown})\n"
             if not shown.endswith(".mp4")
-            else f'```{{raw}} html\n<video src="{shown}" controls loop muted playsinline '
-            'preload="metadata"></video>\n```\n'
+            else f'```{{raw}} html\n{video(shown, "controls")}\n```\n'
         )
         page.append(f"{caption}\n\n```sh\n./{command}\n```\n")
     write(os.path.join(source, "gallery.md"), "\n".join(page))
 
 
 DISH = """```{raw} html
-<iframe src="../lab.html?embed=1" title="Live simulation" style="width: 100%; height: min(27rem, 80vh); border: 0"></iframe>
-<p style="margin-top: 0">The dish is simulated in your browser. <a href="../lab.html">Open the whole page.</a></p>
+<iframe class="dish" src="../lab.html?embed=1" title="Live simulation"></iframe>
+<p>The dish is simulated in your browser. <a href="../lab.html">Open the whole page.</a></p>
+"""
+# Movies start by themselves, unless the reader wants less motion.
+PLAY = """<script>
+for (const movie of document.querySelectorAll(".tiles video"))
+    if (!matchMedia("(prefers-reduced-motion: reduce)").matches) movie.play().catch(() => {});
+</script>
 ```
 """
 
 
-def front_page(source):
-    """The documentation's front page begins with its name, its purpose and the live dish."""
+def tiles(root, gallery):
+    """Links with a movie to one page for each topic (web/tiles.txt). A movie that was not made, because
+    ffmpeg is missing, is left out."""
+    made = []
+    for topic, page, command in rows_of(root, "web/tiles.txt"):
+        name = re.search(r"--out (\S+)", command)[1]
+        movie = video(f"../gallery/{name}") if os.path.exists(os.path.join(gallery, name)) else ""
+        made.append(f'<a href="{page}">{movie}<span>{topic}</span></a>')
+    return '<nav class="tiles" aria-label="Topics">\n' + "\n".join(made) + "\n</nav>\n"
+
+
+def front_page(root, source, gallery):
+    """The documentation's front page begins with its name, its purpose, the live dish and a tile for
+    each topic."""
     path = os.path.join(source, "docs", "index.md")
     with open(path, encoding="utf-8") as opened:
-        heading, purpose, rest = opened.read().split("\n\n", 2)
-    write(path, f"{heading}\n\n{purpose}\n\n{DISH}\n{rest}")
+        heading, purpose, picture, caption, rest = opened.read().split("\n\n", 4)
+    assert picture.startswith("![") and caption.startswith("*"), "the dish replaces the animation"
+    write(path, f"{heading}\n\n{purpose}\n\n{DISH}{tiles(root, gallery)}{PLAY}\n{rest}")
 
 
 def output_markdown(output, folder, name):
@@ -129,7 +157,7 @@ def notebook_pages(source, executed):
 if __name__ == "__main__":
     root, source, gallery, notebooks = sys.argv[1:5]
     copy_tree(root, source)
-    front_page(source)
+    front_page(root, source, gallery)
     os.makedirs(os.path.join(source, "gallery"), exist_ok=True)
     gallery_page(root, source, gallery)
     notebook_pages(source, notebooks)

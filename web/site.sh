@@ -84,12 +84,16 @@ install_packages site || exit 1
 program=${SWIRL-$home/swirl}
 install_packages images movies || true # the gallery omits what cannot be made
 # shellcheck disable=SC2016
-sed -n '/ | docs\//!s/^[^#].* | swirl //p' "$home/web/gallery.txt" | (
+sed -n '/ | docs\//!s/^[^#].* | swirl //p' "$home/web/gallery.txt" "$home/web/tiles.txt" | (
     cd "$temporary/gallery"
     while read -r made; do
         # The commands in this file contain no quotes.
         # shellcheck disable=SC2086
         "$program" $made --quiet 2>/dev/null || say "warning: the gallery omits: swirl $made"
+    done
+    # What a page shows of a movie before it is loaded.
+    for movie in *.mp4; do
+        [ ! -e "$movie" ] || ffmpeg -v error -i "$movie" -frames:v 1 -q:v 5 "${movie%.mp4}.jpg" </dev/null
     done
 )
 python=${SWIRL_PYTHON-$home/bindings/python/python.sh}
@@ -120,16 +124,20 @@ for page in index:lab laboratory:laboratory; do
     sed "s|<meta charset=\"utf-8\">|&$head|; s|href=\"index.html\"|href=\"lab.html\"|" "$temporary/pages/${page%:*}.html" >"$site/$name"
 done
 # Sphinx copies the images of the pages, but no movies.
-for movie in "$temporary"/gallery/*.mp4; do
+for movie in "$temporary"/gallery/*.mp4 "$temporary"/gallery/*.jpg; do
     [ ! -e "$movie" ] || { mkdir -p "$site/gallery" && cp "$movie" "$site/gallery"; }
 done
 [ -z "$report" ] || cp -R "$report" "$site/report"
-[ -e "$site/index.html" ] || cat >"$site/index.html" <<'HTML'
+canonical=
+[ -z "$address" ] || canonical="<link rel=\"canonical\" href=\"${address}docs/index.html\">"
+[ -e "$site/index.html" ] || cat >"$site/index.html" <<HTML
 <!doctype html>
 <html lang="en">
 <meta charset="utf-8">
-<title>swirl</title>
+<title>swirl: why marbles in a swirled dish turn backwards</title>
+<meta name="description" content="A few marbles in a swirled dish turn with the swirl, many against it. A live simulation, and its documentation.">
 <meta http-equiv="refresh" content="0; url=docs/index.html">
+$canonical
 <a href="docs/index.html">Documentation</a>
 </html>
 HTML

@@ -188,7 +188,7 @@ def without_time(file):
     return result
 
 
-def made_of_the_web(test_class, script, name, before=(), **more):
+def made_of_the_web(test_class, script, name, before=(), arguments=(), **more):
     """Runs a script of web/ for all tests of a class and returns its output, a file or a folder
     that contained the empty files `before`; self.warnings is its standard error. Skips the tests if
     clang or Node.js is missing."""
@@ -201,7 +201,9 @@ def made_of_the_web(test_class, script, name, before=(), **more):
     for file in before:
         os.makedirs(output, exist_ok=True)
         open(os.path.join(output, file), "w", encoding="utf-8").close()
-    done = subprocess.run([script, "--out", output], capture_output=True, text=True, **more)
+    done = subprocess.run(
+        [script, "--out", output, *arguments], capture_output=True, text=True, **more
+    )
     if done.returncode:
         raise RuntimeError(done.stderr[-4000:])
     test_class.warnings = done.stderr

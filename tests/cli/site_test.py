@@ -22,15 +22,25 @@ WITH_MODULE = {
 }
 ENVIRONMENT = {**os.environ, **(WITH_MODULE if ALL else {"SWIRL_PYTHON": "false"})}
 CHROMIUM = shutil.which("chromium")
+SHORTER = """case " $* " in
+    *" --seconds "*) ;;
+    " movie "*) set -- "$@" --seconds 0.5 ;;
+esac
+"""
 
 BROWSER = """
-import {pathToFileURL} from "node:url";
+import {existsSync, statSync} from "node:fs";
+import {fileURLToPath, pathToFileURL} from "node:url";
 import {launch} from "../test/browser.mjs";
 const [executablePath, ...files] = process.argv.slice(2);
 const browser = await launch(executablePath, "--allow-file-access-from-files");
 const page = await browser.newPage({viewport: {width: 360, height: 740}});
 const errors = [];
-page.on("requestfailed", (request) => errors.push(`not found: ${request.url()}`));
+page.on("requestfailed", (request) => {
+    // The next page ends the loading of a movie.
+    if (!existsSync(fileURLToPath(request.url().replace(/[?#].*/, ""))))
+        errors.push(`not found: ${request.url()}`);
+});
 page.on("pageerror", (error) => errors.push(error.message));
 page.on("console", (message) => message.type() === "error" && errors.push(message.text()));
 page.on("request", (request) => {
@@ -43,7 +53,19 @@ for (const file of files) {
         (cell) => getComputedStyle(cell).overflowWrap !== "normal").length);
     if (broken) errors.push(`${file} has ${broken} cells whose words may break`);
     if (wide > 360) errors.push(`${file} is ${wide} wide at a width of 360`);
+    const fixed = await page.evaluate(() => [...document.querySelectorAll("article table")].filter(
+        (table) => table.closest("[tabindex='0']") === null).length);
+    if (fixed) errors.push(`${file} has ${fixed} tables that the keyboard cannot scroll`);
 }
+// What a reader gets who opens the gallery and does not scroll.
+await page.goto("about:blank"); // a larger window would load more of the page before
+await page.setViewportSize({width: 1280, height: 800});
+const loaded = new Set();
+page.on("request", (request) => loaded.add(request.url()));
+await page.goto(pathToFileURL(files.find((file) => file.endsWith("/gallery.html"))).href, {waitUntil: "networkidle"});
+const bytes = [...loaded].filter((url) => url.startsWith("file:")).reduce(
+    (sum, url) => sum + statSync(fileURLToPath(url)).size, 0);
+if (bytes > 3e6) errors.push(`the gallery loads ${bytes} bytes at first sight: ${[...loaded].map((url) => url.replace(/.*\//, ""))}`);
 const search = files.find((file) => file.endsWith("/search.html"));
 await page.goto(`${pathToFileURL(search).href}?q=friction`);
 await page.waitForSelector("#search-results li a");
@@ -74,7 +96,7 @@ class Site(unittest.TestCase):
         write_text(
             program,
             "#!/bin/sh\n"
-            + ("" if ALL else '[ "$1" != movie ] || set -- "$@" --seconds 0.5\n')
+            + ("" if ALL else SHORTER)
             + f'exec {shlex.quote(os.path.abspath(SWIRL))} "$@"\n',
         )
         os.chmod(program, 0o755)
@@ -84,6 +106,7 @@ class Site(unittest.TestCase):
             SITE,
             "site",
             before=(".swirl-site", "old.html"),
+            arguments=("--address", "https://example.org/swirl"),
             env={**ENVIRONMENT, "SWIRL": program},
         )
         cls.pages = {}
@@ -157,14 +180,26 @@ class Site(unittest.TestCase):
         text = read_text(os.path.join(self.site, "docs", "index.html")).split("<article", 1)[1]
         parts = [
             text.index(part)
-            for part in ("<h1>swirl", "many against it", "<iframe", "<h2>Questions")
+            for part in ("<h1>swirl", "many against it", "<iframe", '"tiles"', "<h2>Questions")
         ]
         self.assertEqual(parts, sorted(parts))
+        tiles = text[parts[3] : parts[4]]
+        self.assertEqual(tiles.count("<a href="), 6)
+        if shutil.which("ffmpeg"):
+            movies = re.findall(r'<video src="\.\./(gallery/[^"]*)"', tiles)
+            self.assertEqual(len(movies), 6)
+            for movie in movies:
+                self.assertLess(os.path.getsize(os.path.join(self.site, movie)), 700_000)
 
     def test_pages_have_a_title_and_a_text_for_links_to_them(self):
         text = read_text(os.path.join(self.site, "docs", "explanation", "why.html"))
         self.assertIn('<meta property="og:title" content="Why it reverses – swirl"', text)
-        self.assertRegex(text, '<meta property="og:description" content="For everyone. Move a dish')
+        for name in ('name="description"', 'property="og:description"'):
+            self.assertRegex(text, f'<meta {name} content="For everyone. Move a dish')
+        self.assertIn("<title>Why it reverses", text)
+        self.assertIn(
+            '<link rel="canonical" href="https://example.org/swirl/docs/explanation/why.html"', text
+        )
 
     def test_symbols_have_subscripts_and_formulas_the_size_of_the_text(self):
         text = read_text(os.path.join(self.site, "docs", "explanation", "why.html"))
@@ -233,7 +268,9 @@ class Site(unittest.TestCase):
         for path in self.pages:
             text = read_text(path)
             self.assertNotRegex(
-                text, r"""<(script|link|img|iframe)[^>]+(src|href)=["']https?:""", path
+                re.sub('<link rel="canonical"[^>]*>', "", text),
+                r"""<(script|link|img|iframe|video)[^>]+(src|href)=["']https?:""",
+                path,
             )
 
     def test_the_pages_in_a_browser(self):
