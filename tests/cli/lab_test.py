@@ -743,7 +743,7 @@ class Laboratory(ProgramTest):
                 "node",
                 "--experimental-websocket",
                 os.path.join(SOURCE, "web", "test", "firefox.mjs"),
-                self.page,
+                self.pages,
                 firefox,
                 run["state_hash"],
             ],

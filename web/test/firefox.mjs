@@ -1,15 +1,16 @@
-// Tests the page in Firefox: node --experimental-websocket firefox.mjs FILE.html FIREFOX HASH. HASH
-// is that of `swirl run` for the first address below. It drives the browser by WebDriver BiDi.
-// Exits with 1 and a message if a test fails.
+// Tests both pages in Firefox: node --experimental-websocket firefox.mjs PAGES FIREFOX HASH
+// [FOLDER]. The folder PAGES holds them, HASH is that of `swirl run` for the first address below.
+// FOLDER gets images of the pages. It drives the browser by WebDriver BiDi. Exits with 1 and a
+// message if a test fails.
 import assert from "node:assert/strict";
 import {spawn} from "node:child_process";
-import {mkdtempSync, rmSync} from "node:fs";
+import {mkdtempSync, rmSync, writeFileSync} from "node:fs";
 import {tmpdir} from "node:os";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
 import {hang} from "./browser.mjs";
 
-const [file, program, wantedHash] = process.argv.slice(2);
+const [pages, program, wantedHash, folder] = process.argv.slice(2);
 const profile = mkdtempSync(join(tmpdir(), "swirl-firefox-"));
 const firefox = spawn(
     program,
@@ -48,13 +49,19 @@ try {
         contexts: [{context}],
     } = await call("browsingContext.getTree", {});
     await call("session.subscribe", {events: ["log.entryAdded"]});
-    await call("browsingContext.setViewport", {context, viewport: {width: 360, height: 640}});
     const open = (query) =>
         call("browsingContext.navigate", {
             context,
-            url: pathToFileURL(file).href + query,
+            url: new URL(query, `${pathToFileURL(pages).href}/`).href,
             wait: "complete",
         });
+    const show = async (width, height) =>
+        call("browsingContext.setViewport", {context, viewport: {width, height}});
+    const keep = async (name) => {
+        if (!folder) return;
+        const {data} = await call("browsingContext.captureScreenshot", {context});
+        writeFileSync(join(folder, `${name}.png`), Buffer.from(data, "base64"));
+    };
     /** The value of an expression as soon as it is true. */
     const when = async (expression) => {
         for (;;) {
@@ -69,18 +76,42 @@ try {
     };
     const text = (id) => `document.getElementById("${id}").textContent`;
     // The same state as on the command line.
-    await open("?discs=28&mu=0.5&seed=3&events=20000");
+    await show(360, 640);
+    await open("laboratory.html?discs=28&mu=0.5&seed=3&events=20000");
     assert.equal(await when(text("state-hash")), wantedHash);
-    // A new visitor sees both directions, on a page that is not wider than a phone, and can stir
-    // both.
-    await open("?lang=en");
-    await when(`${text("headline")} === "The same swirl: 8 discs turn with it, 48 against it."`);
-    assert.equal(await when("document.documentElement.scrollWidth <= 360"), "true");
-    await when("document.querySelector(\"#discovery-plot [aria-label*='with 2 points']\")");
-    await when("(document.getElementById('by-hand').click(), true)");
-    await when(
-        "/^8 discs: \\S+ turns×48 discs: \\S+ turns$/.test(document.getElementById('views').textContent)",
-    );
+    for (const [width, height] of [
+        [360, 640],
+        [768, 1024],
+        [1440, 900],
+    ]) {
+        await show(width, height);
+        const fits = async () =>
+            assert.equal(await when(`document.documentElement.scrollWidth <= ${width}`), "true");
+        // A new visitor of the Laboratory sees both directions and can stir both.
+        await open("laboratory.html?lang=en");
+        await when(
+            `${text("headline")} === "The same swirl: 8 discs turn with it, 48 against it."`,
+        );
+        await fits();
+        await when("document.querySelector(\"#discovery-plot [aria-label*='with 2 points']\")");
+        await keep(`laboratory_${width}`);
+        await when("(document.getElementById('by-hand').click(), true)");
+        await when(
+            "/^8 discs: \\S+ turns×48 discs: \\S+ turns$/.test(document.getElementById('views').textContent)",
+        );
+        // The first page: both directions, and the cause on the same discs.
+        await open("index.html?lang=en");
+        const says = (words) => when(`${text("sentence")} === "${words}"`);
+        const press = (id) => when(`(document.getElementById("${id}").click(), true)`);
+        await says("8 discs turn with the swirl");
+        await says("48 discs turn against the swirl");
+        await fits();
+        await keep(`dish_${width}`);
+        await press("discs");
+        await says("48 discs turn with the swirl");
+        await press("hold");
+        await says("48 discs turn against the swirl");
+    }
     assert.deepEqual(errors, []);
 } finally {
     clearTimeout(limit);

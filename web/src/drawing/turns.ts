@@ -43,17 +43,19 @@ export function drawSwirl(
 const leastTurns = 0.005; // the number next to the arc is 0.00 below it
 
 /** An arc around the wall that starts at the top, as in movies: the fraction of the last turn of
- *  the cluster. Each whole turn is a ring outside the arc, up to three. */
+ *  the cluster. Each whole turn is a ring outside the arc, up to three. The arc begins beyond the
+ *  outer edge of the wall. */
 export function drawTurns(
     context: CanvasRenderingContext2D,
     frame: Frame,
     turns: number,
     palette: Palette,
     hair: number,
+    edge = 5 * hair,
 ): void {
     const whole = Math.trunc(turns),
         rest = turns - whole,
-        radius = frame.radius + 8 * hair;
+        radius = frame.radius + edge + 3 * hair;
     if (!(frame.radius > 20 * hair)) return; // the container is a dot at this scale
     if (Math.abs(turns) < leastTurns) return;
     const [cx, cy] = frame.centre,

@@ -101,7 +101,14 @@ export class Stage {
         if (ride > 0.5) this.drawPressed(context, frame, scene);
         context.restore();
         const [cx, cy] = frame.centre.map((x) => (1 - ride) * x) as [number, number];
-        drawTurns(context, {...frame, centre: [cx, cy]}, scene.turns, scene.palette, hair);
+        drawTurns(
+            context,
+            {...frame, centre: [cx, cy]},
+            scene.turns,
+            scene.palette,
+            hair,
+            rim + 0.5 * hair,
+        );
         context.setTransform(ratio, 0, 0, ratio, 0, 0);
         if (scene.isPaused) drawPaused(context, width, height, scene.palette);
     }
