@@ -4,7 +4,9 @@
 //
 //     Observation observation({container_radius, period, units}, names);
 //     observation.sample(snapshot);       at equal time steps, samples_per_period of them
-//     observation.sample(event, after);   after every event, if events are known at all
+//     observation.sample(event, after);   after every event, if events are known at all; `after`
+//                                         is a snapshot or moves its particles when asked to
+//                                         (event_states.hpp)
 //     observation.close_block();          at the end of every period
 //     observation.begin_tracks();         if the discs of the next sample are not those of the
 //                                         last: a camera has lost one, or swapped IDs
@@ -28,6 +30,7 @@
 #include <utility>
 #include <vector>
 
+#include "swirl/measure/event_states.hpp"
 #include "swirl/measure/forget_blocks.hpp"
 #include "swirl/measure/long_residence.hpp"
 #include "swirl/measure/m_frame.hpp"
@@ -107,7 +110,7 @@ class BasicObservation {
     bool samples_events() const { return samples_events_; }
 
     void sample(const Snapshot& lab);
-    void sample(const Event& event, const Snapshot& after);
+    void sample(const Event& event, const EventStates& after);
     /// To be called if the discs of the next sample are not those of the last one.
     void begin_tracks();
     void close_block();
@@ -264,14 +267,16 @@ void BasicObservation<Measurements>::sample(const Snapshot& lab) {
 }
 
 template <class Measurements>
-void BasicObservation<Measurements>::sample(const Event& event, const Snapshot& after) {
-    discs_ = after.size();
-    period_ = after.period;
+void BasicObservation<Measurements>::sample(const Event& event, const EventStates& after) {
+    discs_ = after.of_event().size();
+    period_ = after.of_event().period;
     const bool by_event = samples_by_event_ && (events_ + 1) % events_per_sample == 0;
-    if (by_event) view_.update(after);
+    if (by_event) view_.update(after.of_all());
     each([&]<class M>(M& m) {
-        if constexpr (SamplesEventStates<M>)
-            m.sample_event(event, after);
+        if constexpr (ReadsOnlyEvent<M>)
+            m.sample_event(event, after.of_event());
+        else if constexpr (SamplesEventStates<M>)
+            m.sample_event(event, after.of_all());
         else if constexpr (SamplesEvents<M>)
             m.sample_event(event);
         if constexpr (SamplesByEvent<M>) {

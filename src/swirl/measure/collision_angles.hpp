@@ -47,6 +47,7 @@ class CollisionAngles : public MergedAverages<CollisionAngles> {
     static auto averages(auto& s) {
         return std::tie(s.discs_, s.wall_, s.directions_, s.b_, s.size_, s.wall_b_, s.wall_size_);
     }
+    static constexpr bool reads_only_event = true;
     static constexpr std::size_t bins = 40, direction_bins = 36;
 
     void sample_event(const Event& event, const Snapshot& after) {

@@ -172,6 +172,7 @@ class PinnedLoose : public BlockAverages<PinnedLoose> {
 class PinnedByCollisions {
   public:
     static constexpr double min_frames_per_period = min_rate_of_pinned;
+    static constexpr bool reads_only_event = true;
 
     void sample_event(const Event& event, const Snapshot& after);
     /// At the end of every period: now the longest flights are known.

@@ -44,7 +44,7 @@ namespace swirl {
 
 class Rolling : public ReportedAverages<Rolling>, public Strided {
   public:
-    static constexpr bool any_path = true;
+    static constexpr bool any_path = true, reads_only_event = true;
 
     static auto rows(auto& s) {
         return std::tuple{AverageRow{quantity("rolling.rolling_share"), s.rolls_},

@@ -12,7 +12,8 @@
 //   - report(visitor) or report(visitor, pinned_loose): see measurement_report.hpp.
 //
 // It may have `static constexpr bool any_path = true` (AnyPath); otherwise it is rejected on paths
-// without an M-frame. It may have `min_frames_per_period` (NeedsFrameRate).
+// without an M-frame. It may have `min_frames_per_period` (NeedsFrameRate) and `reads_only_event`
+// (ReadsOnlyEvent).
 //
 // Each name stands for one function; none of them is overloaded. SamplingContract rejects a class
 // that has a function of one of these names with another signature, and a class without a sampling
@@ -102,6 +103,11 @@ template <class M>
 concept SamplesEventStates = requires(M& m, const Event& event, const Snapshot& after) {
     m.sample_event(event, after);
 };
+
+/// A class that reads `after` only for the particles of the event says so by a member `static
+/// constexpr bool reads_only_event = true`. Spheres then need not all be moved to its time.
+template <class M>
+concept ReadsOnlyEvent = SamplesEventStates<M> && M::reads_only_event;
 
 /// close_block(): at the end of every period.
 template <class M>

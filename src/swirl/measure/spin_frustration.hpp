@@ -64,6 +64,7 @@ class SpinFrustration : public ReportedAverages<SpinFrustration>, public Strided
             AverageRow{quantity("frustration.wall_sticking"), s.wall_sticking_}};
     }
 
+    static constexpr bool reads_only_event = true;
     explicit SpinFrustration(double gap = 0.1, int every = 64) : Strided(every), gap_(gap) {}
 
     /// `pinned`: for each disc whether it is pinned; empty if that is unknown.

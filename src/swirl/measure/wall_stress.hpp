@@ -30,6 +30,7 @@ class WallStress : public MergedAverages<WallStress> {
         return std::tie(s.normal_, s.tangential_, s.all_normal_, s.all_tangential_);
     }
 
+    static constexpr bool reads_only_event = true;
     explicit WallStress(double container_radius, std::size_t slices = 72)
         : container_radius_(container_radius), normal_(slices), tangential_(slices) {}
 

@@ -77,9 +77,18 @@ void CoreRun::pass_event() {
 
 void CoreRun::pass_to_measurements() {
     const Event event = config_.turns_clockwise() ? mirrored(event_) : event_;
-    const Snapshot& after = observed();
+    const EventStates after = states_after_event();
     if (observes_events()) observer_.sample(event, after);
     if (series_.samples_events()) series_.sample_measured(event, after);
+}
+
+/// Spheres are moved to the time of the event when a measurement asks for them.
+EventStates CoreRun::states_after_event() {
+    if (config_.turns_clockwise() || !snapshot_.are_spheres()) return observed();
+    const auto all = [](void* run) -> const Snapshot& {
+        return static_cast<CoreRun*>(run)->snapshot();
+    };
+    return {snapshot_, all, this};
 }
 
 const Snapshot& CoreRun::observed() {

@@ -10,6 +10,7 @@
 
 #include "swirl/engine/simulation.hpp"
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/event_states.hpp"
 #include "swirl/measure/sample_times.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -130,6 +131,7 @@ class CoreRun {
     RotationSampling rotation_sampling();
     /// What measurements see: a clockwise dish in its mirror image.
     const Snapshot& observed();
+    EventStates states_after_event();
     void pass_to_measurements();
     void update_flights();
     void update_snapshot();

@@ -53,7 +53,7 @@ class PeriodSeries final : public FollowsPeriods {
 
     void sample(const Snapshot& snapshot) override;
     void sample_measured(const Snapshot& snapshot) override { measured_.sample(snapshot); }
-    void sample_measured(const Event& event, const Snapshot& after) override {
+    void sample_measured(const Event& event, const EventStates& after) override {
         measured_.sample(event, after);
     }
     bool measures() const override { return !measured_.empty(); }

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 
+#include "swirl/measure/event_states.hpp"
 #include "swirl/measure/observation_fwd.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
@@ -28,7 +29,7 @@ class RunObserver {
     void sample(const Snapshot& lab) {
         if (calls_) calls_->sample(observation_, lab);
     }
-    void sample(const Event& event, const Snapshot& after) {
+    void sample(const Event& event, const EventStates& after) {
         if (calls_) calls_->sample_event(observation_, event, after);
     }
     void close_block() {
@@ -38,14 +39,14 @@ class RunObserver {
   private:
     struct Calls {
         void (*sample)(void*, const Snapshot&);
-        void (*sample_event)(void*, const Event&, const Snapshot&);
+        void (*sample_event)(void*, const Event&, const EventStates&);
         void (*close_block)(void*);
     };
     template <class O>
     static constexpr Calls calls_of = {
         .sample = [](void* o, const Snapshot& lab) { static_cast<O*>(o)->sample(lab); },
         .sample_event = [](void* o, const Event& event,
-                           const Snapshot& after) { static_cast<O*>(o)->sample(event, after); },
+                           const EventStates& after) { static_cast<O*>(o)->sample(event, after); },
         .close_block = [](void* o) { static_cast<O*>(o)->close_block(); }};
 
     void* observation_ = nullptr;

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "swirl/measure/cluster_rotation.hpp"
+#include "swirl/measure/event_states.hpp"
 #include "swirl/physics/event.hpp"
 #include "swirl/physics/snapshot.hpp"
 
@@ -28,7 +29,7 @@ class FollowsPeriods {
     /// If measures(), the first is called at the sample times of the run's measurements. If
     /// samples_events(), the second is called after every event.
     virtual void sample_measured(const Snapshot& snapshot) = 0;
-    virtual void sample_measured(const Event& event, const Snapshot& after) = 0;
+    virtual void sample_measured(const Event& event, const EventStates& after) = 0;
     virtual void add_period(const PeriodAverages& averages) = 0;
     virtual bool measures() const = 0;
     virtual bool samples_events() const = 0;
@@ -59,7 +60,7 @@ class RunSeries {
     void sample_measured(const Snapshot& snapshot) {
         if (measures_) series_->sample_measured(snapshot);
     }
-    void sample_measured(const Event& event, const Snapshot& after) {
+    void sample_measured(const Event& event, const EventStates& after) {
         if (samples_events_) series_->sample_measured(event, after);
     }
     void add_period(const PeriodAverages& averages) {
