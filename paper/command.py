@@ -39,11 +39,10 @@ def draw(job):
 def add_seeds_to_undecided(settings, plans):
     """Doubles the seeds of the points on which undecided claims rest. Returns (True if there are
     any, the number of those whose budget is used)."""
-    from paper.claims import write_verdicts
+    from paper.claims import all_judged, points_to_decide
 
-    verdicts = write_verdicts(settings.out)
     seeds = {point.name: len(point.tasks) for plan in plans for point in plan}
-    undecided = [name for name in verdicts["points_to_decide"] if name in seeds]
+    undecided = [name for name in points_to_decide(all_judged(settings.out)) if name in seeds]
     more = [name for name in undecided if 2 * seeds[name] <= settings.max_seeds]
     settings.seeds_of_point.update({name: 2 * seeds[name] for name in more})
     return bool(more), len(undecided) - len(more)
@@ -62,8 +61,8 @@ class Paper:
         self.made, self.counts, self.undecided, self.problems = [], {}, 0, {}
 
     def run(self, progress):
-        """Makes the runs and the tables; if all figures are made, also more seeds until the claims
-        are decided."""
+        """Makes the runs and the tables, and more seeds until the claims that rest on them are
+        decided."""
         first = None
         while True:
             plans = self.plans()
@@ -73,8 +72,6 @@ class Paper:
             first = first or counts
             self.counts = {**counts, "reused": first["reused"]}
             self.made = [self.finished(figure, plan) for figure, plan in zip(self.figures, plans)]
-            if not self.is_all:
-                return
             more, self.undecided = add_seeds_to_undecided(self.settings, plans)
             if not more:
                 return
@@ -130,6 +127,7 @@ class Paper:
     def report(self):
         """Writes paper.json and the report; returns the file that a reader opens."""
         from paper import report
+        from paper.claims import write_verdicts
 
         call, settings = self.call, self.settings
         figures = [
@@ -158,6 +156,7 @@ class Paper:
             os.path.join(settings.out, "paper.json"),
             json.dumps(about, indent=2, ensure_ascii=False) + "\n",
         )
+        write_verdicts(settings.out)
         report.write_all(settings.out)
         return os.path.join(settings.out, "report.html")
 

@@ -73,9 +73,9 @@ def rotation_at(row):
     return f"ϖ/Ω = {value_at(row, 'mean_by_event')}"
 
 
-def lowest_of(study, setting):
+def lowest_of(study, figure, setting):
     """The lowest rotation of a curve, and the N that were run."""
-    rows = known(study.curve("5b", last=math.inf, setting=setting), "mean_by_event")
+    rows = known(study.curve(figure, last=math.inf, setting=setting), "mean_by_event")
     lowest = min(rows, key=lambda row: row["mean_by_event"])
     return f"lowest of {len(rows)} N up to {rows[-1]['discs']:.0f}: {rotation_at(lowest)}"
 
@@ -127,7 +127,7 @@ def order_found(study):
 def both_frictions_found(study):
     """Without either friction there is no counterrotation."""
     cases = [
-        (judged(claim, study), words, lowest_of(study, setting))
+        (judged(claim, study), words, lowest_of(study, claim.figure, setting))
         for claim, setting, words in (
             (NO_WALL, "no-wall", "friction at the wall"),
             (NO_DISC, "no-disc", "friction between the discs"),

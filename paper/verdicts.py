@@ -17,10 +17,9 @@ at the wall. Such a claim is judged for each choice, and decided only if all cho
 
 Seeds are added until a claim is decided, so a claim is tested repeatedly. An error in a table
 already contains Student's factor for 95 % (replicates.hpp). The threshold multiplies this error, so
-it is stricter than an exact single test. That compensates for the repetition: with 8, 16 and 32
+it is stricter than an exact single test. That compensates for the repetition: with 4, 8, 16 and 32
 seeds, a value that lies exactly on its bound is decided in at most 0.6 % of all cases, whatever the
-scatter between seeds (paper/tests/verdicts_test.py, FalseDecisions; docs/results/paper.md has the
-table).
+scatter between seeds (paper/tests/verdicts_test.py, FalseDecisions).
 """
 
 import math

@@ -223,6 +223,7 @@ def shortest_times(study):
                 for row in tables.select(rows, mu=mu)
                 if row["smallest"] > 0
             ],
+            {row["point"] for row in tables.select(rows, mu=mu)},
             least=SCATTER_OF_SHORTEST,
         )
         for mu in SHORTEST_TIMES

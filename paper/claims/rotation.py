@@ -274,11 +274,11 @@ def no_disc_close(study):
     return near_omega(rows, size.CLOSE_TO_OMEGA, f"Below N = {HIGH_N} w")
 
 
-def never_crosses(setting):
+def never_crosses(setting, figure="5b"):
     """All N that were run count, also beyond the paper's N = 48."""
 
     def judge(study):
-        rows = known(study.curve("5b", last=math.inf, setting=setting), "mean_by_event")
+        rows = known(study.curve(figure, last=math.inf, setting=setting), "mean_by_event")
         lowest = min(rows, key=lambda row: row["mean_by_event"])
         rotating = [above(v, -size.LEAST_ROTATION) for v in values(rows, "mean_by_event")]
         return every(rotating), (

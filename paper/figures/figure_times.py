@@ -49,7 +49,7 @@ def table(points, settings):
     rows, findings = [], []
     for point in points:
         rows += [
-            {**point.cells, "seed": k + 1, **task.result}
+            {**point.cells, "seed": k + 1, **task.result, "point": point.name}
             for k, task in enumerate(point.tasks)
             if not failed(task.result)
         ]
@@ -59,7 +59,7 @@ def table(points, settings):
                 f"μ = {point.cells['mu']}, N = {COUNTERROTATING_N}: the shortest time between two "
                 f"collisions of a run lies between {min(found):.1g} and {max(found):.1g}."
             )
-    return {"": (rows, ["mu", "discs", "seed", "events", "smallest"])}, findings
+    return {"": (rows, ["mu", "discs", "seed", "events", "smallest", "point"])}, findings
 
 
 FIGURES = [Figure("times", "beyond", "the shortest times between collisions", points, table)]

@@ -126,7 +126,12 @@ class Motion(HandMadeTables):
             self.table(
                 "times",
                 [
-                    {"mu": mu, "events": events, "smallest": smallest(t, k)}
+                    {
+                        "mu": mu,
+                        "events": events,
+                        "smallest": smallest(t, k),
+                        "point": f"times_mu{mu}",
+                    }
                     for mu, t in ((1, rough), (0, smooth))
                     for k in range(seeds)
                 ],
@@ -144,7 +149,9 @@ class Motion(HandMadeTables):
         self.assertIn("is 1e-11 (", found)
         self.assertEqual(judged(2e-7, 2e-9, events=1e5)[0], UNDECIDED)
         # Between seeds such times scatter by half an order of magnitude; three seeds do not decide.
-        self.assertEqual(judged(1e-10, 2e-9, seeds=3)[0], UNDECIDED)
+        few = judged(1e-10, 2e-9, seeds=3)[0]
+        self.assertEqual(few, UNDECIDED)
+        self.assertEqual(few.points, {"times_mu1", "times_mu0"})  # more seeds would
         self.assertEqual(judged(2e-11, 2e-9, seeds=1)[0], UNDECIDED)
 
     def test_energy_growth_is_compared_with_the_scatter_of_seeds(self):

@@ -80,7 +80,7 @@ class Rotation(HandMadeTables):
     def test_runs_with_the_memory_of_their_initial_state_decide_nothing(self):
         def judged(periods):
             self.table(
-                "5b",
+                "5b-steady",
                 [
                     {
                         "setting": "no-wall",

@@ -9,7 +9,7 @@ import unittest
 from claim_tables import HandMadeTables, SOURCE
 from program import read_json, read_rows, read_text
 
-from paper import claims, claims_page
+from paper import claims, claims_page, command, study
 from paper.claims import rotation, thresholds
 from paper.claims.claim import BOTH, DISCS, NOTHING, SPHERES, UNTESTED, Claim
 from paper.claims.wording import number
@@ -84,7 +84,7 @@ class Catalogue(HandMadeTables):
     def test_page_gets_its_tables_from_the_verdicts(self):
         page = read_text(os.path.join(SOURCE, "docs", "results", "paper.md"))
         self.rotation(
-            "5b", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)]
+            "5b-steady", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48)]
         )
         rows = [
             claims_page.row_of(k, judged)
@@ -127,7 +127,7 @@ class Catalogue(HandMadeTables):
         stored = list(csv.DictReader(io.StringIO(read_text(file))))
         at = claims.CLAIMS.index(claim_that("Without wall friction there is never")) + 1
         self.rotation(
-            "5b", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)]
+            "5b-steady", "no-wall", [(n, -0.2) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48)]
         )
         rows = claims_page.rows_from(self.folder, file, {at})
         self.assertEqual([k for k, (a, b) in enumerate(zip(rows, stored), 1) if a != b], [at])
@@ -202,12 +202,35 @@ class Catalogue(HandMadeTables):
         self.assertEqual(verdict, UNDECIDED)
         self.assertIn("figure spheres_friction, experiment, μ = 0.4.", found)
 
-    def test_verdicts_file_lists_points_that_need_seeds(self):
+    def one_point_is_undecided(self):
         self.rotation(
-            "5b",
+            "5b-steady",
             "no-wall",
-            [(n, 0.022 if n == 40 else 0.9) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48, 52, 55)],
+            [(n, 0.022 if n == 40 else 0.9) for n in (8, 16, 24, 28, 32, 36, 40, 44, 48)],
         )
+
+    def test_only_an_undecided_point_gets_more_seeds_until_its_budget_is_spent(self):
+        self.one_point_is_undecided()
+        settings = study.Settings(out=self.folder)
+
+        def plans():
+            numbers = (36, 40)
+            return [
+                [
+                    study.Point(settings, f"no-wall_N{n}", settings.seeds, {"discs": n})
+                    for n in numbers
+                ]
+            ]
+
+        for seeds in (8, 16, 32):
+            self.assertEqual(command.add_seeds_to_undecided(settings, plans()), (True, 0))
+            self.assertEqual([len(point.tasks) for point in plans()[0]], [4, seeds])
+        self.assertEqual(command.add_seeds_to_undecided(settings, plans()), (False, 1))
+        # A figure without this point has nothing to add.
+        self.assertEqual(command.add_seeds_to_undecided(settings, [plans()[0][:1]]), (False, 0))
+
+    def test_verdicts_file_lists_points_that_need_seeds(self):
+        self.one_point_is_undecided()
         claims.write_verdicts(self.folder)
         found = read_json(os.path.join(self.folder, "verdicts.json"))
         self.assertEqual(found["points_to_decide"], ["no-wall_N40"])

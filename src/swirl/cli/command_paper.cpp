@@ -68,7 +68,7 @@ void add_paper_command(Subcommand& subcommand) {
         {"--events", &call->events, "Events per run; scales lengths in periods [1e6]", "NUMBER"},
         {"--seed", &call->seed, "Random seed of the first run of each point [1]", "NUMBER"},
         {"--replicates", &call->replicates,
-         "Runs per point; undecided claims get more [8, quick 3]", "NUMBER"},
+         "Runs per point; undecided claims get more [4, quick 3]", "NUMBER"},
         {"--out", &call->out, "Output folder [out]", "DIR"},
         {"--part", &call->share.part, "Part of the runs to make, such as 2/10", "K/M"},
         threads_option(call->share),
