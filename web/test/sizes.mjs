@@ -1,13 +1,14 @@
 // Tests the page's layout at the sizes of laptops and phones: node sizes.mjs FILE.html CHROMIUM
-// [--all]. Without --all it tests a laptop at twice the size and the smallest phone only. Exits
-// with 1 and a message if a test fails.
+// [--all] [WIDTH…]. Without --all it tests a laptop at twice the size and the smallest phone only,
+// with widths only those. Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
 import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
 import {launch} from "./browser.mjs";
 import {inEachFont} from "./fonts.mjs";
 
-const [file, executablePath] = process.argv.slice(2);
+const [file, executablePath, ...more] = process.argv.slice(2);
+const widths = more.map(Number).filter((width) => width > 0);
 const all = process.argv.includes("--all");
 const address = pathToFileURL(file).href;
 const browser = await launch(executablePath);
@@ -68,6 +69,7 @@ const few = [
     [360, 640, "light", "en", newVisitor],
 ];
 for (const [width, height, colorScheme, lang, query] of all ? every : few) {
+    if (widths.length > 0 && !widths.includes(width)) continue;
     const isNew = query === "",
         where = `${width} × ${height}, ${colorScheme}, ${lang}, ${isNew ? "a new visitor" : "a link"}`;
     const page = await browser.newPage({
@@ -87,7 +89,9 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
             ? ["views", "play"]
             : isNew && width <= 768
               ? ["views", "headline", "play", "by-hand", "discovery-plot", "slider-discs"]
-              : ["views", "headline", "gauge", "play", "by-hand", "slider-discs", "slider-mu"];
+              : ["views", "headline", "play", "by-hand", "slider-discs", "slider-mu"].concat(
+                    isNew ? [] : ["gauge"],
+                );
     // Nothing extends beyond the page. The dish, the verdict and both main sliders are in the first
     // screen.
     const fits = async (font, ofPage, high) => {

@@ -176,7 +176,9 @@ export class Discovery {
         );
         // A frame without an address, as in a notebook, has no link.
         document.getElementById("discovery-link")!.hidden = location.protocol === "about:";
-        this.plot = new Chart(plotPlace, {height: innerWidth < 480 ? 140 : 210});
+        // On a phone, and on a laptop at twice the size, the slider is below the plot.
+        const isSmall = innerWidth < 480 || (innerWidth <= 768 && innerHeight <= 800);
+        this.plot = new Chart(plotPlace, {height: isSmall ? 120 : 210});
         this.draw();
     }
 
