@@ -23,6 +23,7 @@ USUAL = {
     "frames_per_period": 60,
     "frames": 84,
     "still_for": 0,
+    "wander": 0.0,  # of the centre of the container's path, as a hand moves it
     "clockwise": False,
     "seed": 1,
     # Appearance, in grey levels of 255.
@@ -79,6 +80,7 @@ MOTION = (
     "frames_per_period",
     "frames",
     "still_for",
+    "wander",
     "clockwise",
     "seed",
 )
@@ -111,7 +113,8 @@ def course(s, frame):
     turn = 2.0 * math.pi * t / s["frames_per_period"] + 0.7
     if not s["clockwise"]:
         turn = -turn
-    return s["amplitude"] * numpy.array([math.cos(turn), math.sin(turn)])
+    drift = s["wander"] * numpy.array([math.sin(0.08 * t), math.cos(0.06 * t)])
+    return s["amplitude"] * numpy.array([math.cos(turn), math.sin(turn)]) + drift
 
 
 def moved(s, radii, rng):

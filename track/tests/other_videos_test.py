@@ -59,6 +59,17 @@ class OtherVideos(InFolder):
         self.assertLess(abs(camera["path"]["amplitude"] - video.amplitude), amplitude)
         return camera, done.stdout
 
+    def error_in_frame(self, video):
+        """The rms distance of a coordinate to the nearest sphere, in the frames as they are."""
+        off = []
+        with open(self.path("tracks.csv"), encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                d = video.positions[int(row["frame"])] - numpy.array(
+                    [float(row["x_seen"]), float(row["y_seen"])]
+                )
+                off.append(d[numpy.hypot(d[:, 0], d[:, 1]).argmin()])
+        return math.sqrt(numpy.mean(numpy.square(off)))
+
     # Edges give positions to 1/100 of a radius; patches of texture double the error.
     def test_bright_spheres_with_clutter(self):
         # What moves on the table, as the shadows of leaves do, is no motion of the camera: 1.6
@@ -174,17 +185,50 @@ class OtherVideos(InFolder):
             shake = faults["shake"]
             self.assertAlmostEqual(camera["camera_motion"]["shake"], shake, delta=0.3 * shake)
             self.assertEqual(camera["discs"], len(video.radii))
-            with open(self.path("tracks.csv"), encoding="utf-8") as file:
-                off = []
-                for row in csv.DictReader(file):
-                    d = video.positions[int(row["frame"])] - numpy.array(
-                        [float(row["x_seen"]), float(row["y_seen"])]
-                    )
-                    off.append(d[numpy.hypot(d[:, 0], d[:, 1]).argmin()])
-            self.assertLess(math.sqrt(numpy.mean(numpy.square(off))), 0.3)
+            self.assertLess(self.error_in_frame(video), 0.3)
             if source == "background":
                 omega = 2.0 * math.pi / video.frames_per_period * camera["fps"]
                 self.assertLess(abs(camera["path"]["omega"] / omega - 1.0), 1e-3)
+
+    def test_the_centre_of_a_path_by_hand_may_wander(self):
+        video, done = self.call(frames_per_period=16, wander=9.0)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("the centre of the container's path wanders by", done.stderr)
+        self.assertEqual(calibration(self.path("tracks.csv"))["discs"], len(video.radii))
+        self.assertLess(self.error_in_frame(video), 0.5)
+
+    def test_a_rejection_names_its_cause_with_a_number(self):
+        for faults, cause in some(
+            (
+                ({"filter": "scale=iw:trunc(ih*0.4)*2"}, r"inclined by about 3[5-9] degrees"),
+                ({"filter": "drawbox=w=iw/2:t=fill"}, r"covers (4[5-9]|5\d) % of the"),
+                ({"filter": "crop=320:200:0:0"}, r"3\d % of the container's rim lies outside"),
+                ({"drop": tuple(range(6, 84))}, r"the video has 6 frames, too few"),
+                (
+                    {"frames_per_period": 8, "amplitude": 34.0, "exposure": 0.5},
+                    r"at 8\.0 frames per period there",
+                ),
+                (
+                    {"exposure": 1.6, "frames_per_period": 12, "amplitude": 34.0},
+                    "1.8 times as wide",
+                ),
+            ),
+            2,
+        ):
+            _, done = self.call(**faults)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertRegex(done.stderr, cause)
+
+    def test_who_follows_the_hint_of_a_rejection_gets_all_discs(self):
+        cover = "drawbox=t=fill:enable='gte(n,40)'"
+        video, done = self.call(filter=cover)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertIn("in frames 40 to 83 no disc is visible", done.stderr)
+        self.assertIn("hint: --last-frame 39 leaves these frames out", done.stderr)
+        video, done = self.call("--last-frame", 39, filter=cover)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(calibration(self.path("tracks.csv"))["discs"], len(video.radii))
+        self.assertLess(self.error_in_frame(video), 0.3)
 
     @slow("two videos of 256 frames, which are not in the repository")
     def test_real_textures_with_soft_edges(self):

@@ -652,6 +652,22 @@ class TrackTest(InFolder):
                 call=swirl("track", video, "--discs", given, "--out", self.path("tracks.csv")),
             )
 
+    def test_shade_of_steel_balls_is_no_lens(self):
+        # Their circles are 2 % too large, and their sizes imply k = -0.013 ± 0.004. With that lens
+        # the error was 0.48 pixels, and by edges alone 0.26.
+        video = self.video(
+            *["--disc-level", 60, "--floor-level", 200, "--gloss", 200, "--texture", 0.1],
+            of=["--camera", "student", "--discs", 28, "--seed", 4, "--quality", 23],
+            length=2,
+        )
+        tracks, _ = self.track(video)
+        score = Comparison(video, tracks)
+        self.assertEqual(score.found["lens"]["distortion"], 0.0)
+        self.assertEqual(score.swaps, 0)
+        self.assertLess(score.rms, 0.15)
+        claimed = score.found["quality"]["position_error"] / score.rms
+        self.assertTrue(0.6 < claimed < 1.6, claimed)
+
     def test_discs_outside_the_frame_are_not_overlooked(self):
         # Cut by 30 pixels, the container is whole in a part of each period; by 90, never. Then 19
         # of 20 discs are found.

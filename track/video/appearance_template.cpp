@@ -94,8 +94,9 @@ double overlap(const std::vector<AppearanceTemplate::Example>& examples,
         for (std::size_t a = 0; a < particles.size(); ++a)
             for (std::size_t b = a + 1; b < particles.size(); ++b) {
                 if (!particles[a].sure || !particles[b].sure) continue;
-                const double sum = appearance.species[particles[a].species].radius +
-                                   appearance.species[particles[b].species].radius;
+                const double sum =
+                    appearance.contact * (appearance.species[particles[a].species].radius +
+                                          appearance.species[particles[b].species].radius);
                 const double gap = length(positions[a] - positions[b]) - sum;
                 if (std::abs(gap) > near_contact * sum) continue;
                 ++pairs;

@@ -61,12 +61,17 @@ bool remove_rolling_shutter(Detections& all, TrackedVideo& tracked) {
     return true;
 }
 
+[[noreturn]] void reject_path(const RimCentres& rims) {
+    const PathCircle circle = circle_through(rims.centres);
+    throw Failure(fmt::format(
+        "the container was found, but its centre does not move along a circle: it is {:.1f} pixels "
+        "off the circle that fits best, whose radius is {:.1f} pixels\n{}",
+        circle.scatter, circle.radius, no_circle_hint));
+}
+
 void fit_path(const RimCentres& rims, TrackedVideo& tracked) {
     const auto path = fit_container_path(rims.centres, rims.times);
-    if (!path)
-        throw Failure(
-            fmt::format("the container was found, but its centre does not move along a circle\n{}",
-                        no_circle_hint));
+    if (!path) reject_path(rims);
     tracked.path = *path;
     add_lens_error(rims, tracked);
 }
@@ -152,9 +157,11 @@ Vec2 put_back(const TrackedVideo& tracked, std::size_t frame, const Vec2& positi
     return seen;
 }
 
-void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
-                          TrackedVideo& tracked) {
+void fit_container_motion(const TrackingSettings& settings, const ContainerRim& survey,
+                          bool uneven_times, Detections& all, TrackedVideo& tracked) {
+    const bool wanders = remove_wandering(all, tracked);
     RimCentres rims = rim_centres(all, tracked);
+    if (survey.rough && !wanders) reject_path(rims);
     if (set_times_by_phase(settings, rims, tracked)) {
         uneven_times = true;
         rims = rim_centres(all, tracked);
@@ -245,18 +252,10 @@ bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked) {
             square += dot(bend->rim, bend->rim);
         }
     if (product < min_slope * square || !(square > 0.0)) return false;
-    Vec2 last{0.0, 0.0};
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        FrameDetections& found = all[k];
-        if (found.rim.good) last = found.rim.centre - tracked.container(k);
-        CameraPose pose;
-        pose.shift = last;
-        tracked.camera.poses.push_back(pose);
-        found.rim.centre = found.rim.centre - last;
-        for (DetectedParticle& p : found.particles) p.centre = p.centre - last;
-    }
-    tracked.camera.from_rim = true;
-    measure_camera_motion(tracked.camera);
+    remove_shifts(all, tracked, [&](std::size_t k) -> std::optional<Vec2> {
+        if (!all[k].rim.good) return std::nullopt;
+        return all[k].rim.centre - tracked.container(k);
+    });
     return true;
 }
 

@@ -86,6 +86,8 @@ class RimSurvey {
     [[noreturn]] void throw_not_moving() const {
         constexpr double still_scatter = 1.0;  // pixels: errors of a still rim
         constexpr double shown_reach = 0.1;    // pixels: as it is printed
+        constexpr std::size_t min_frames = 8;  // fewer show no path
+        constexpr double min_seen = 0.7;       // share of the frames
         const RimCandidate& best = largest_;
         const double reach = best.reach();
         if (best.centres.size() >= min_centres && best.path.scatter < still_scatter &&
@@ -94,10 +96,25 @@ class RimSurvey {
                 "the container stands still: its centre stays within {:.1f} pixels\n"
                 "hint: fix the camera to the floor, not to the container, and swirl the container",
                 std::max(reach, shown_reach)));
-        throw Failure(fmt::format(
-            "the largest circle in the frames, with a radius of about {:.0f} pixels, does not move "
-            "along a circle, as a swirled container does\n{}",
-            best.radius / shrink_, no_circle_hint));
+        const std::string circle =
+            fmt::format("the largest circle in the frames, with a radius of about {:.0f} pixels,",
+                        best.radius / shrink_);
+        if (frames_.size() < min_frames)
+            throw Failure(
+                fmt::format("the video has {} frames, too few to show that a container moves\n"
+                            "hint: record at least half a period, and at least 16 frames in it",
+                            frames_.size()));
+        if (double(best.centres.size()) < min_seen * double(frames_.size()))
+            throw Failure(fmt::format(
+                "{} is seen in only {} of {} frames: something covers it, or it leaves the frame\n"
+                "hint: keep the whole rim in the frame; --first-frame and --last-frame limit the "
+                "video to frames that show it",
+                circle, best.centres.size(), frames_.size()));
+        throw Failure(
+            fmt::format("{} does not move along a circle, as a swirled container does: "
+                        "its centre is {:.1f} pixels off the circle that fits best, "
+                        "whose radius is {:.1f} pixels\n{}",
+                        circle, best.path.scatter, best.path.radius, no_circle_hint));
     }
 
   private:

@@ -17,9 +17,8 @@ namespace swirl::tracking {
 
 /// For errors about a container whose centre does not go round a circle.
 inline constexpr const char* no_circle_hint =
-    "hint: check that the camera does not move, that the video lasts at least half a period, that "
-    "nothing covers the container, and that its path is not a polygon of few sides; --motion-out "
-    "without --out records the motion on any path";
+    "hint: move the container on a circle, which may drift, and not on a polygon of few sides; "
+    "--motion-out without --out records the motion on any path that repeats";
 
 struct ContainerRim {
     double radius = 0.0;  // corrected by `lens`, if there is one

@@ -48,6 +48,7 @@ struct ParticleAppearance {
     double sure = 0.45;                    // support that makes a circle a sure particle
     /// Contact distance relative to the sum of radii: above 1 if circles are a part of each disc.
     double spacing = 1.0;
+    double contact = 1.0;  // below 1 if circles are too large, so that discs in contact overlap
     Lens lens;
     double steepest = 1.0;  // radius of the steepest brightness slope relative to the disc's: below
                             // 1 for a shaded edge

@@ -123,6 +123,7 @@ void set_reach(const std::vector<double>& reaches, TrackedVideo& tracked) {
 void find_contacts(TrackedVideo& tracked) {
     std::vector<double> distances;
     for (std::size_t k = 0; k < tracked.seen.size(); ++k) {
+        if (tracked.rests_in(k)) continue;  // the same distances again and again
         const TrackFrame& f = tracked.tracks.frames[k];
         for (std::size_t a = 0; a < f.id.size(); ++a)
             for (std::size_t b = a + 1; b < f.id.size() && tracked.seen[k][a]; ++b) {

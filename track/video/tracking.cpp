@@ -151,7 +151,7 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
         throw Failure(fmt::format("'{}' has {} frames, too few to determine the path: at least {}",
                                   settings.video, all.size(), min_frames));
     const bool uneven_times = set_frame_times(settings, times, all, tracked);
-    fit_container_motion(settings, uneven_times, all, tracked);
+    fit_container_motion(settings, survey.rim, uneven_times, all, tracked);
     set_species(settings, survey.appearance, all, tracked);
 
     const Links links = link_detections(settings, survey, all, tracked);
@@ -161,6 +161,7 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     find_contacts(tracked);
     measure_quality(all, tracked);
     reject_contradicted_discs(tracked);
+    reject_confused_discs(tracked);
     set_radii(tracked);
     if (survey.floor && !tracked.mixed)
         tracked.warnings.emplace_back(
@@ -209,6 +210,10 @@ TrackedVideo detect_and_link(TrackingSettings settings) {
     auto [times, survey, all] = detect_video(settings, tracked);
     try {
         finish_tracking(settings, survey, times, all, tracked);
+    } catch (const UncertainDiscs& failure) {
+        const auto poor = poor_view(survey.view);
+        if (!poor || !tracked.damage.empty()) throw;
+        throw UncertainDiscs(with_cause(failure.what(), *poor));
     } catch (const Failure& failure) {
         // Causes that no other message states.
         std::string cause;

@@ -95,8 +95,9 @@ struct TrackedVideo {
     double container_radius_error = 0.0;
     bool wall_reached = false;  // discs touch it at least three times per period
     std::size_t rims_missed = 0;
-    CameraMotion camera;  // removed from all positions
-    double shake = 0.0;   // what is left of it, from frame to frame, rms of a coordinate
+    CameraMotion camera;     // removed from all positions
+    double wandering = 0.0;  // of the centre of the path, rms of a coordinate; removed
+    double shake = 0.0;      // what is left of it, from frame to frame, rms of a coordinate
     std::size_t frames_without_pose = 0;  // not used: the camera's motion is unknown
     Vec2 rim_shift{0.0, 0.0};      // of the path's centre from the rim's to the discs', pixels
     Vec2 shading_shift{0.0, 0.0};  // of discs by light from one side, pixels; removed

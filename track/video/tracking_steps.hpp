@@ -9,10 +9,12 @@
 #include <optional>
 #include <vector>
 
+#include "track/video/camera_motion.hpp"
 #include "track/video/container_rim.hpp"
 #include "track/video/floor_pattern.hpp"
 #include "track/video/link.hpp"
 #include "track/video/particle_detection.hpp"
+#include "track/video/rim_view.hpp"
 #include "track/video/tilt.hpp"
 #include "track/video/tracking.hpp"
 #include "track/video/video.hpp"
@@ -28,6 +30,7 @@ inline constexpr std::int64_t survey_frames = 48;
 
 struct VideoSurvey {
     ContainerRim rim;
+    RimView view;
     ParticleAppearance appearance;
     Tilt tilt;
     std::shared_ptr<const StaticBackground> background;  // set if the camera moves
@@ -76,6 +79,12 @@ void collect_camera_motion(Detections& all, TrackedVideo& tracked);
 /// its deviation from the path from all positions. True if it did.
 bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked);
 
+// wandering.cpp
+
+/// If the centre of the container's path wanders, as by hand, moves all positions so that the rim
+/// goes round one circle. True if it did.
+bool remove_wandering(Detections& all, TrackedVideo& tracked);
+
 // frame_times.cpp
 
 /// Sets the time of every frame; returns whether these are the video's own because they are uneven.
@@ -98,13 +107,30 @@ bool set_times_by_phase(const TrackingSettings& settings, const RimCentres& rims
 // container_motion.cpp
 
 RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);
+/// Moves all positions of each frame by −shift(k), as for a camera that moves by it. The shift may
+/// be none if the frame does not show it.
+template <typename Shift>
+void remove_shifts(Detections& all, TrackedVideo& tracked, Shift&& shift) {
+    Vec2 last{0.0, 0.0};
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        FrameDetections& found = all[k];
+        last = shift(k).value_or(last);
+        CameraPose pose;
+        pose.shift = last;
+        tracked.camera.poses.push_back(pose);
+        found.rim.centre = found.rim.centre - last;
+        for (DetectedParticle& p : found.particles) p.centre = p.centre - last;
+    }
+    tracked.camera.from_rim = true;
+    measure_camera_motion(tracked.camera);
+}
 /// Moves a position from the time at which its row was read to that of the frame, with the
 /// container. Returns by how much later it was read. put_back() moves it back.
 double remove_delay(const TrackedVideo& tracked, std::size_t frame, Vec2& position);
 Vec2 put_back(const TrackedVideo& tracked, std::size_t frame, const Vec2& position);
 /// Sets all that the rim determines: path, shake. Throws Failure.
-void fit_container_motion(const TrackingSettings& settings, bool uneven_times, Detections& all,
-                          TrackedVideo& tracked);
+void fit_container_motion(const TrackingSettings& settings, const ContainerRim& survey,
+                          bool uneven_times, Detections& all, TrackedVideo& tracked);
 
 // track_repair.cpp
 
@@ -143,6 +169,8 @@ inline constexpr double counted_frames = 1.0 / 7.0;
 inline constexpr double complete_rim = 0.005;  // share outside that is no warning
 /// Throws UncertainDiscs if the frames contradict the discs that were found, or their number.
 void reject_contradicted_discs(const TrackedVideo& tracked);
+/// Throws Failure if discs move so far between frames that their IDs mean nothing.
+void reject_confused_discs(const TrackedVideo& tracked);
 /// "40, 41, 60 and 12 more".
 std::string first_of(const std::vector<std::string>& items);
 /// Adds warnings about what looks wrong, with the likely cause.

@@ -118,10 +118,10 @@ std::string omission_text(const Occlusion& occlusion, const TrackedVideo& tracke
     constexpr std::size_t one_in = 10;  // frames that may be left out in addition
     const std::size_t frames = tracked.seen.size();
     if (one_in * occlusion.begin < frames)
-        return fmt::format("; --first-frame {} leaves these frames out",
+        return fmt::format("--first-frame {} leaves these frames out",
                            number_of(tracked, occlusion.end - 1) + 1);
     if (one_in * (frames - occlusion.end) < frames)
-        return fmt::format("; --last-frame {} leaves these frames out",
+        return fmt::format("--last-frame {} leaves these frames out",
                            number_of(tracked, occlusion.begin) - 1);
     return "";
 }
@@ -144,6 +144,12 @@ void warn_about_motion(TrackedVideo& tracked) {
              "there are only {:.1f} frames per period: discs may be confused, {}and their spins "
              "cannot be measured; use 60 or more (the paper has 511)",
              per_period, tracked.contact_fitted ? "" : "positions may err more than claimed, ");
+    if (tracked.wandering > 0.0)
+        warn(tracked,
+             "the centre of the container's path wanders by {:.1f} pixels, as if a hand moved it; "
+             "the phase is that about the local centre, and positions are relative to the rim of "
+             "each frame",
+             tracked.wandering);
     if (tracked.path.used < min_used)
         warn(tracked,
              "in {:.0f} % of the frames the rim is not on the fitted path: something may cover it, "
@@ -209,14 +215,16 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
     constexpr std::size_t min_occlusion = 4;  // frames
     const Occlusion occlusion = longest_occlusion(tracked);
     const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
+    const std::string omission = omission_text(occlusion, tracked);
     std::vector<std::string> swaps;
     if (hidden)
         warn(tracked,
              "in frames {} to {} about {:.0f} % of the discs are missing at once{}: something "
              "covered the container, perhaps a hand; a disc may have different IDs before and "
-             "after{}",
+             "after{}{}",
              number_of(tracked, occlusion.begin), number_of(tracked, occlusion.end - 1),
-             100.0 * occlusion.share, missing_text(tracked), omission_text(occlusion, tracked));
+             100.0 * occlusion.share, missing_text(tracked), omission.empty() ? "" : "; ",
+             omission);
     for (const PossibleSwap& swap : tracked.swaps)
         swaps.push_back(fmt::format("{} and {} in frame {}", swap.first, swap.second,
                                     number_of(tracked, swap.frame)));
@@ -281,12 +289,14 @@ void reject_hidden_discs(const TrackedVideo& tracked) {
     constexpr double most = 1.0 / 3.0, all = 0.9;  // share of the frames, of the discs
     const Occlusion missing = longest_occlusion(tracked);
     if (double(missing.size()) < most * double(tracked.seen.size()) || missing.share < all) return;
+    const std::string omission = omission_text(missing, tracked);
     throw UncertainDiscs(fmt::format(
         "in frames {} to {} no disc is visible: they are covered, the light changes, or they rest "
-        "for so long that they look like the floor.\nhint: --first-frame and --last-frame limit "
-        "the "
-        "video to frames in which the container moves.",
-        number_of(tracked, missing.begin), number_of(tracked, missing.end - 1)));
+        "for so long that they look like the floor.\nhint: {}.",
+        number_of(tracked, missing.begin), number_of(tracked, missing.end - 1),
+        omission.empty() ? "--first-frame and --last-frame limit the video to frames in which the "
+                           "container moves"
+                         : omission));
 }
 
 }  // namespace
@@ -307,6 +317,18 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
         "and --container-diameter. A plain floor, more contrast and less compression help, too.",
         tracked.number, tracked.radius, 100.0 * tracked.complete_share, missing_text(tracked),
         100.0 * crowded, extra_text(tracked)));
+}
+
+void reject_confused_discs(const TrackedVideo& tracked) {
+    constexpr double most = 1.0;  // possible swap for each disc and period; 0.3 with hands
+    const double periods = std::max(1.0, tracked.periods()),
+                 swaps = double(tracked.swaps.size()) / (double(tracked.number) * periods);
+    if (swaps < most) return;
+    throw Failure(fmt::format(
+        "the discs cannot be told apart: at {:.1f} frames per period there are {:.1f} possible "
+        "swaps of IDs for each disc and period\nhint: record 16 or more frames per period, by a "
+        "faster camera or a slower swirl",
+        2.0 * pi / (tracked.path.omega * tracked.step()), swaps));
 }
 
 void add_warnings(TrackedVideo& tracked) {

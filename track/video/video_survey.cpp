@@ -145,12 +145,16 @@ bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& 
                 if (std::abs(ratio - 1.0) < contact_range) ratios.push_back(ratio);
             }
     }
+    constexpr double dominates = 1.25;  // standard deviations of a distance
     const auto contact = contact_of_discs(ratios);
     if (appearance.spacing > 1.0 || !contact) return false;
+    if (!appearance.shading && 1.0 - contact->at > dominates * contact->error)
+        appearance.contact = contact->at;
     // A circle far inside a ball is the sharp edge of its bright part, and stays the best guide.
     constexpr double inner_edge = 1.1;
     if (std::abs(contact->at - 1.0) < max_contact_off || contact->at > inner_edge) return false;
     for (ParticleSpecies& species : appearance.species) species.radius *= 0.5 * (1.0 + contact->at);
+    appearance.contact = 1.0;
     appearance.lens.ball_radius = appearance.radius();
     return true;
 }
@@ -195,6 +199,26 @@ Vec2 shading_gradient(const std::vector<AppearanceTemplate::Example>& examples,
     return size * Vec2{std::cos(angle), std::sin(angle)};
 }
 
+/// True if the template misses discs that edges show, in some of the images.
+bool loses_discs(const std::vector<cv::Mat>& images, const TrackingSettings& settings,
+                 const VideoSurvey& survey) {
+    constexpr std::size_t enough = 6;  // images
+    constexpr double min_share = 0.8;  // of the discs
+    std::vector<cv::Mat> some;
+    for (std::size_t k = 0; k < images.size(); k += images.size() / enough + 1)
+        some.push_back(images[k]);
+    const auto number_by = [&](const VideoSurvey& by) {
+        std::ptrdiff_t number = 0;
+        for (const AppearanceTemplate::Example& example : find_examples(some, settings, by))
+            number += std::count_if(example.particles.begin(), example.particles.end(),
+                                    [](const DetectedParticle& p) { return p.sure; });
+        return double(number);
+    };
+    VideoSurvey by_edges = survey;
+    by_edges.appearance.appearance_template.reset();
+    return number_by(survey) < min_share * number_by(by_edges);
+}
+
 /// Learns the discs' mean appearance, for videos with poor edges.
 void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings& settings,
                       VideoSurvey& survey) {
@@ -203,10 +227,12 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
         examples = find_examples(images, settings, survey);
     if (!survey.appearance.shading) survey.shading = shading_gradient(examples, survey.appearance);
     if (auto learned =
-            AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings)))
+            AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings))) {
         survey.appearance.appearance_template =
             std::make_shared<const AppearanceTemplate>(std::move(*learned));
-    else if (survey.appearance.shading)
+        if (!survey.appearance.shading && loses_discs(images, settings, survey))
+            survey.appearance.appearance_template.reset();
+    } else if (survey.appearance.shading)
         throw UncertainDiscs(
             "the container was found, but no discs: balls were found by their shading, but they "
             "have no common appearance.\nhint: a higher contrast and less compression help.");
@@ -354,7 +380,8 @@ Surveyed survey_rim(const TrackingSettings& settings, std::int64_t frame_count) 
 void survey_discs(const TrackingSettings& settings, Surveyed& all) {
     auto& [survey, images, frames, reduction, detail] = all;
     remove_camera_motion(settings, reduction, images, frames, survey);
-    if (survey.rim.rough) survey.rim = survey_container_rim(frames);
+    if (survey.rim.rough) survey.rim.amplitude = 0.0;  // it wanders, see remove_wandering()
+    survey.view = view_of_rim(frames, survey.rim);
     if (settings.patterned_floor) remove_floor_pattern(settings, reduction, images, frames, survey);
     survey.appearance = survey_appearance(images, frames, detail, survey.rim, settings);
     constexpr std::size_t one_in = 10;  // discs: fewer of the other brightness may be marks
@@ -440,8 +467,18 @@ VideoSurvey survey_video(TrackingSettings& settings, std::int64_t frame_count) {
     if (!settings.motion_only)
         if (auto coloured = survey_colours(settings, frame_count, grey))
             return finished_survey(settings, *coloured);
-    survey_discs(settings, grey);
-    return finished_survey(settings, grey);
+    try {
+        survey_discs(settings, grey);
+        return finished_survey(settings, grey);
+    } catch (const UncertainDiscs& failure) {
+        if (const auto poor = poor_view(grey.survey.view))
+            throw UncertainDiscs(with_cause(failure.what(), *poor));
+        throw;
+    } catch (const Failure& failure) {
+        if (const auto poor = poor_view(grey.survey.view))
+            throw Failure(with_cause(failure.what(), *poor));
+        throw;
+    }
 }
 
 }  // namespace swirl::tracking

@@ -197,11 +197,12 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
         if (used.empty()) return std::nullopt;
         make_likely(used, least_error, true, model);
     }
-    const auto variance = covariance_of(used, model, every);
-    if (!variance) return {};
     const WallModel concentric = concentric_wall(used, least_errors.back(), model);
     const bool displaced = is_displaced(used, every, model, concentric);
-    return WallFit{.value = radius * (displaced ? model : concentric).value,
+    const WallModel& chosen = displaced ? model : concentric;
+    const auto variance = covariance_of(used, chosen, every);
+    if (!variance) return {};
+    return WallFit{.value = radius * chosen.value,
                    .covariance = radius * radius * *variance,
                    .displaced = displaced};
 }
@@ -225,11 +226,13 @@ Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit
     cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey, tracked.mixed);
     cv::Vec2d shift, displaced = found ? cv::Vec2d(found->value[1], found->value[2]) : shift;
     // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
-    if (found && found->displaced && !tracked.lens.tilted() && !tracked.mixed) {
+    if (found && !tracked.lens.tilted() && !tracked.mixed) {
         const cv::Matx22d sum = left + found->covariance.get_minor<2, 2>(1, 1);
-        // If it is much larger than both allow, the rim is displaced, and not the discs.
+        // If it is much larger than both allow, the rim is displaced, and not the discs. A wall
+        // that is not displaced shows that light hardly shifts the discs.
         const cv::Vec2d part = left * displaced;
-        if (std::abs(part.dot(displaced)) < stands_out * std::sqrt(part.dot(sum * part))) {
+        if (!found->displaced ||
+            std::abs(part.dot(displaced)) < stands_out * std::sqrt(part.dot(sum * part))) {
             const cv::Matx22d gain = left * sum.inv();
             shift = gain * displaced;
             left -= gain * left;

@@ -111,9 +111,16 @@ TEST(Lens, SizesThatContradictContactsAreNotUsed) {
 
 TEST(Lens, WeakDistortionBySizesNeedsSupportOfContacts) {
     EXPECT_EQ(combined(0.005, 0.004, 0.0025), 0.005);
-    EXPECT_EQ(combined(-0.006, -0.005, 0.0025), -0.006);
     EXPECT_EQ(combined(0.005, 0.001, 0.0025), 0.0);  // contacts support no distortion
     EXPECT_EQ(combined(0.005, 0.0, 0.0), 0.0);       // no contacts
+}
+
+TEST(Lens, WeakNegativeDistortionIsNone) {
+    // Shade makes k too small, and contacts may agree with it by chance: the balls of steel of
+    // bench/student_videos.py give the last values without a lens.
+    EXPECT_EQ(combined(-0.006, -0.005, 0.0025), 0.0);
+    EXPECT_EQ(combined(-0.0149, -0.0119, 0.0055), 0.0);
+    EXPECT_LT(combined(-0.033, -0.029, 0.0025), -0.029);
 }
 
 TEST(Lens, StrongDistortionIsAWeightedMean) {
