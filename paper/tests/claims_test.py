@@ -5,6 +5,7 @@ import io
 import os
 import re
 import unittest
+from types import SimpleNamespace
 
 from claim_tables import HandMadeTables, SOURCE
 from program import read_json, read_rows, read_text
@@ -213,14 +214,13 @@ class Catalogue(HandMadeTables):
         self.one_point_is_undecided()
         settings = study.Settings(out=self.folder)
 
+        def point(n):
+            name = f"no-wall_N{n}"
+            seeds = max(settings.seeds, settings.seeds_of_point.get(name, 0))
+            return SimpleNamespace(name=name, tasks=range(seeds))
+
         def plans():
-            numbers = (36, 40)
-            return [
-                [
-                    study.Point(settings, f"no-wall_N{n}", settings.seeds, {"discs": n})
-                    for n in numbers
-                ]
-            ]
+            return [[point(36), point(40)]]
 
         for seeds in (8, 16, 32):
             self.assertEqual(command.add_seeds_to_undecided(settings, plans()), (True, 0))

@@ -273,7 +273,8 @@ void make_synthetic_video(const SyntheticVideoCall& call) {
     const std::atomic<bool>& stopped = stop_signal();
     const Playback playback = simulated(config, &stopped).open();
     CameraView view(camera);
-    MovieWriter writer(call.out, MovieFormat::mp4, camera.size, call.fps, call.quality);
+    MovieWriter writer(call.out, MovieFormat::mp4, camera.size, call.fps,
+                       {.loss = call.quality, .by_camera = true});
     GroundTruth truth;
     GreyPlanes planes(static_cast<std::size_t>(camera.size.width) *
                       static_cast<std::size_t>(camera.size.height));

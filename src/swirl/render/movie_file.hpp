@@ -27,13 +27,21 @@ std::optional<MovieFormat> movie_format(const std::string& path);
 /// An error message if no movie of this kind can be made.
 std::optional<std::string> movie_problem(MovieFormat format, Size size, int frames_per_second);
 
+/// How H.264 compresses.
+struct Compression {
+    /// The constant rate factor; 0 is lossless. With 24, ten seconds of 48 discs at 1280x720 take
+    /// less than 3 MB.
+    int loss = 24;
+    /// As a camera, which has no time to look for the best description of a frame. Every number
+    /// about tracked synthetic videos depends on it.
+    bool by_camera = false;
+};
+
 class MovieWriter {
   public:
-    /// Starts ffmpeg. `loss` is the constant rate factor of H.264; 0 is lossless. With 24, ten
-    /// seconds of 48 discs at 1280x720 take less than 3 MB. Throws DrawFailure if ffmpeg is not
-    /// installed or does not start.
+    /// Starts ffmpeg. Throws DrawFailure if ffmpeg is not installed or does not start.
     MovieWriter(const std::string& path, MovieFormat format, Size size, int frames_per_second,
-                int loss = 24);
+                const Compression& compression = {});
     /// Without finish(): ends ffmpeg and removes the temporary file.
     ~MovieWriter();
     MovieWriter(const MovieWriter&) = delete;
