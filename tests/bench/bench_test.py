@@ -197,7 +197,7 @@ class Bench(unittest.TestCase):
 
     def test_unwritable_file_is_an_error(self):
         done = bench(
-            "--seconds", "0.001", "--only", "48 discs", "--quiet", "--json", "/no/such/b.json"
+            "--seconds", "0.001", "--only", "mu_disc = 0", "--quiet", "--json", "/no/such/b.json"
         )
         self.assertEqual(done.returncode, 1)
         self.assertIn("/no/such", done.stderr)
