@@ -14,6 +14,8 @@ from html import escape
 from io import BytesIO
 
 from docutils import nodes
+from sphinx import addnodes
+from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.nodes import make_refnode
 
 project = "swirl"
@@ -164,6 +166,20 @@ def resolve_folder(app, env, node, contnode):
     return contnode
 
 
+class Folders(SphinxPostTransform):
+    """Resolves links to folders before MyST, whose newer versions ask nobody and warn."""
+
+    default_priority = 5  # MyST has 9
+
+    def run(self, **_):
+        for node in list(self.document.findall(addnodes.pending_xref)):
+            if node["reftype"] != "myst":
+                continue
+            found = resolve_folder(self.app, self.env, node, node[0].deepcopy())
+            if found is not None:
+                node.replace_self(found)
+
+
 # The size of the text, in the units of a formula's lengths. The formula's letters are larger: their
 # small letters have the height of those of the text.
 SIZE = 10
@@ -229,7 +245,7 @@ def bundle_theme(app, exception):
         if not os.path.exists(os.path.join(scripts, name)):
             return
         with open(os.path.join(scripts, name), encoding="utf-8") as opened:
-            parts.append(re.sub(r"^import Gumshoe from .*$", "", opened.read(), flags=re.M))
+            parts.append(re.sub(r"^import (\* as )?Gumshoe from .*$", "", opened.read(), flags=re.M))
     # A heading "Exports" defines a global of that name in the browser, which this test takes for
     # Node.js.
     parts[0] = parts[0].replace('typeof exports === "object"', "false")
@@ -247,7 +263,7 @@ def bundle_theme(app, exception):
 def setup(app):
     app.connect("build-finished", bundle_theme)
     app.connect("source-read", add_contents)
-    app.connect("missing-reference", resolve_folder)
+    app.add_post_transform(Folders)
     app.connect("doctree-resolved", set_subscripts)
     app.connect("html-page-context", describe_page)
     app.add_html_math_renderer("mathtext", (visit_math, None), (visit_math_block, None))

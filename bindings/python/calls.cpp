@@ -22,9 +22,10 @@ std::string shown(const py::handle& value) {
     throw py::type_error(fmt::format("{} is {}, but it must be {}.", name, shown(value), expected));
 }
 
+/// That of NumPy has another name in version 2.
 bool is_truth_value(const py::handle& value) {
-    return PyBool_Check(value.ptr()) ||
-           std::string_view(Py_TYPE(value.ptr())->tp_name) == "numpy.bool_";
+    const std::string_view type = Py_TYPE(value.ptr())->tp_name;
+    return PyBool_Check(value.ptr()) || type == "numpy.bool_" || type == "numpy.bool";
 }
 
 /// A text in UTF-8. Python allows halves of surrogate pairs, which UTF-8 does not.

@@ -59,7 +59,8 @@ def long_lines(file):
         return wide
     with open(file, "rb") as opened:
         for token in tokenize.tokenize(opened.readline):
-            if token.type == tokenize.STRING:
+            # From Python 3.12 on, a literal with values has tokens for its parts.
+            if token.type in (tokenize.STRING, getattr(tokenize, "FSTRING_MIDDLE", None)):
                 wide -= set(range(token.start[0], token.end[0] + 1))
     return wide
 

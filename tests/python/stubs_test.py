@@ -113,7 +113,7 @@ def is_declared(name, thing):
     """Objects have the other names, too."""
     if name in ("__init__", "__len__", "__getitem__"):
         return inspect.getdoc(thing) != inspect.getdoc(getattr(object, name, None))
-    return not name.startswith("__")
+    return not name.startswith(("__", "_pybind11"))  # the second are of some versions only
 
 
 def class_of(name, kind):

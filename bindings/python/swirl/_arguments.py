@@ -7,11 +7,15 @@ import enum
 import os
 from typing import Any
 
+import numpy as np
+
 from . import _engine
 
 
 def shown(value: object) -> str:
-    """repr(), in one line and with at most 80 characters, for messages."""
+    """repr(), in one line and with at most 80 characters, for messages. Numbers of NumPy are shown
+    as those of Python: NumPy 2 would name their types."""
+    value = value.item() if isinstance(value, np.generic) else value
     text = " ".join(repr(value).split())
     return _engine.shortened(text.encode("utf-8", "backslashreplace").decode())
 
