@@ -245,7 +245,8 @@ def bundle_theme(app, exception):
         if not os.path.exists(os.path.join(scripts, name)):
             return
         with open(os.path.join(scripts, name), encoding="utf-8") as opened:
-            parts.append(re.sub(r"^import (\* as )?Gumshoe from .*$", "", opened.read(), flags=re.M))
+            script = opened.read()
+        parts.append(re.sub(r"^import (\* as )?Gumshoe from .*$", "", script, flags=re.M))
     # A heading "Exports" defines a global of that name in the browser, which this test takes for
     # Node.js.
     parts[0] = parts[0].replace('typeof exports === "object"', "false")

@@ -2,9 +2,7 @@
 claim, as in the table of claims: without the points that the claim needs, or with shortened runs,
 it is undecided. Its numbers come from the tables."""
 
-import math
-
-from paper.claims import claim_stating, spheres
+from paper.claims import claim_stating, rotation, spheres
 from paper.claims.settings import SPHERES, WORDS, capital
 from paper.claims.study import Study, crossing_sentence
 from paper.claims.thresholds import LEAST_ROTATION
@@ -73,10 +71,8 @@ def rotation_at(row):
     return f"ϖ/Ω = {value_at(row, 'mean_by_event')}"
 
 
-def lowest_of(study, figure, setting):
-    """The lowest rotation of a curve, and the N that were run."""
-    rows = known(study.curve(figure, last=math.inf, setting=setting), "mean_by_event")
-    lowest = min(rows, key=lambda row: row["mean_by_event"])
+def lowest_in_words(study, figure, setting):
+    rows, lowest = rotation.lowest_of(study, figure, setting)
     return f"lowest of {len(rows)} N up to {rows[-1]['discs']:.0f}: {rotation_at(lowest)}"
 
 
@@ -127,7 +123,7 @@ def order_found(study):
 def both_frictions_found(study):
     """Without either friction there is no counterrotation."""
     cases = [
-        (judged(claim, study), words, lowest_of(study, claim.figure, setting))
+        (judged(claim, study), words, lowest_in_words(study, claim.figure, setting))
         for claim, setting, words in (
             (NO_WALL, "no-wall", "friction at the wall"),
             (NO_DISC, "no-disc", "friction between the discs"),

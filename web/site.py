@@ -33,7 +33,10 @@ def write(path, text):
 def video(source, more=""):
     """A movie, which is loaded when it plays; until then its first image is shown."""
     first = source.removesuffix(".mp4") + ".jpg"
-    return f'<video src="{source}" poster="{first}" {more} loop muted playsinline preload="none"></video>'
+    return (
+        f'<video src="{source}" poster="{first}" {more} loop muted playsinline preload="none">'
+        "</video>"
+    )
 
 
 def rows_of(root, name):
@@ -79,8 +82,8 @@ for (const movie of document.querySelectorAll(".tiles video"))
 
 
 def tiles(root, gallery):
-    """Links with a movie to one page for each topic (web/tiles.txt). A movie that was not made, because
-    ffmpeg is missing, is left out."""
+    """Links with a movie to one page for each topic (web/tiles.txt). A movie that was not made,
+    because ffmpeg is missing, is left out."""
     made = []
     for topic, page, command in rows_of(root, "web/tiles.txt"):
         name = re.search(r"--out (\S+)", command)[1]
@@ -90,8 +93,8 @@ def tiles(root, gallery):
 
 
 def front_page(root, source, gallery):
-    """The documentation's front page begins with its name, its purpose, the live dish and a tile for
-    each topic."""
+    """The documentation's front page begins with its name, its purpose, the live dish and a tile
+    for each topic."""
     path = os.path.join(source, "docs", "index.md")
     with open(path, encoding="utf-8") as opened:
         heading, purpose, picture, caption, rest = opened.read().split("\n\n", 4)

@@ -274,12 +274,17 @@ def no_disc_close(study):
     return near_omega(rows, size.CLOSE_TO_OMEGA, f"Below N = {HIGH_N} w")
 
 
+def lowest_of(study, figure, setting):
+    """The rows of a curve at all N that were run, and the one with the lowest rotation."""
+    rows = known(study.curve(figure, last=math.inf, setting=setting), "mean_by_event")
+    return rows, min(rows, key=lambda row: row["mean_by_event"])
+
+
 def never_crosses(setting, figure="5b"):
     """All N that were run count, also beyond the paper's N = 48."""
 
     def judge(study):
-        rows = known(study.curve(figure, last=math.inf, setting=setting), "mean_by_event")
-        lowest = min(rows, key=lambda row: row["mean_by_event"])
+        rows, lowest = lowest_of(study, figure, setting)
         rotating = [above(v, -size.LEAST_ROTATION) for v in values(rows, "mean_by_event")]
         return every(rotating), (
             f"ϖ/Ω is certainly not below −{size.LEAST_ROTATION} at {count(rotating)} of "

@@ -61,14 +61,19 @@ for (const file of files) {
 // loads late images is its own choice, so these do not count; each must have its place and be late.
 await page.setViewportSize({width: 1280, height: 800});
 await page.goto(pathToFileURL(files.find((file) => file.endsWith("/gallery.html"))).href);
-const images = await page.evaluate(() => [...document.querySelectorAll("article img")].map((image) => ({
-    url: image.src,
-    seen: image.getBoundingClientRect().top < innerHeight,
-    late: image.loading === "lazy" && image.hasAttribute("width") && image.hasAttribute("height"),
-})));
-const bytes = images.filter(({seen}) => seen).reduce((sum, {url}) => sum + statSync(fileURLToPath(url)).size, 0);
-if (images.length < 10 || bytes > 2e6) errors.push(`the gallery shows ${bytes} bytes at first sight`);
-for (const {url, seen, late} of images) if (!seen && !late) errors.push(`${url} is loaded at once`);
+const images = await page.evaluate(() =>
+    [...document.querySelectorAll("article img")].map((image) => ({
+        url: image.src,
+        seen: image.getBoundingClientRect().top < innerHeight,
+        late: image.loading === "lazy" && image.hasAttribute("width") && image.hasAttribute("height"),
+    })));
+const bytes = images
+    .filter(({seen}) => seen)
+    .reduce((sum, {url}) => sum + statSync(fileURLToPath(url)).size, 0);
+if (images.length < 10 || bytes > 2e6)
+    errors.push(`the gallery shows ${bytes} bytes at first sight`);
+for (const {url, seen, late} of images)
+    if (!seen && !late) errors.push(`${url} is loaded at once`);
 const search = files.find((file) => file.endsWith("/search.html"));
 await page.goto(`${pathToFileURL(search).href}?q=friction`);
 await page.waitForSelector("#search-results li a");

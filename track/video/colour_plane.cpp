@@ -80,7 +80,9 @@ std::optional<cv::Vec3d> take_colour(std::vector<cv::Vec3d>& differences, std::s
         const auto near = std::size_t(std::count_if(
             differences.begin(), differences.end(),
             [&](const cv::Vec3d& other) { return cosine(differences[k], other) > core; }));
-        if (near > most) most = near, densest = differences[k];
+        if (near <= most) continue;
+        most = near;
+        densest = differences[k];
     }
     const auto rest =
         std::partition(differences.begin(), differences.end(),

@@ -59,7 +59,9 @@ std::optional<double> lasting_edge(std::vector<double> distances, std::size_t fr
     double at = 0.0;
     for (std::size_t k = 0, end = 0; k < distances.size(); ++k) {
         while (end < distances.size() && distances[end] < distances[k] + width) ++end;
-        if (end - k > most) most = end - k, at = distances[(k + end - 1) / 2];
+        if (end - k <= most) continue;
+        most = end - k;
+        at = distances[(k + end - 1) / 2];
     }
     if (double(most) < min_share * double(frames)) return std::nullopt;
     return at;

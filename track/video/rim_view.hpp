@@ -33,4 +33,11 @@ std::optional<PoorView> poor_view(const RimView& view);
 /// The message of a failure, after the cause.
 std::string with_cause(const std::string& message, const PoorView& poor);
 
+/// Throws the failure that is handled, with the cause in its message if the view is poor.
+template <class Kind>
+[[noreturn]] void rethrow_with_cause(const Kind& failure, const RimView& view) {
+    if (const auto poor = poor_view(view)) throw Kind(with_cause(failure.what(), *poor));
+    throw;
+}
+
 }  // namespace swirl::tracking

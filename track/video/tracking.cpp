@@ -211,9 +211,8 @@ TrackedVideo detect_and_link(TrackingSettings settings) {
     try {
         finish_tracking(settings, survey, times, all, tracked);
     } catch (const UncertainDiscs& failure) {
-        const auto poor = poor_view(survey.view);
-        if (!poor || !tracked.damage.empty()) throw;
-        throw UncertainDiscs(with_cause(failure.what(), *poor));
+        if (!tracked.damage.empty()) throw;
+        rethrow_with_cause(failure, survey.view);
     } catch (const Failure& failure) {
         // Causes that no other message states.
         std::string cause;

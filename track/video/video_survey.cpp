@@ -471,13 +471,9 @@ VideoSurvey survey_video(TrackingSettings& settings, std::int64_t frame_count) {
         survey_discs(settings, grey);
         return finished_survey(settings, grey);
     } catch (const UncertainDiscs& failure) {
-        if (const auto poor = poor_view(grey.survey.view))
-            throw UncertainDiscs(with_cause(failure.what(), *poor));
-        throw;
+        rethrow_with_cause(failure, grey.survey.view);
     } catch (const Failure& failure) {
-        if (const auto poor = poor_view(grey.survey.view))
-            throw Failure(with_cause(failure.what(), *poor));
-        throw;
+        rethrow_with_cause(failure, grey.survey.view);
     }
 }
 
