@@ -2,12 +2,15 @@
 // none, nor does the mirror image, and the periods of a series add up to the run.
 #include "swirl/measure/quantities.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <fstream>
 #include <optional>
+#include <regex>
 #include <set>
 #include <string>
 #include <utility>
@@ -205,6 +208,33 @@ TEST(Quantities, AreNamedOnce) {
     std::set<std::string> names;
     for (const Quantity& row : all_quantities::rows)
         EXPECT_TRUE(names.insert(row.name).second) << row.name;
+}
+
+/// The rows of the table of frame rates in the documentation.
+std::set<std::pair<std::string, std::string>> documented_rates() {
+    std::ifstream lines(SWIRL_SOURCE_DIR "/docs/reference/measurements.md");
+    std::set<std::pair<std::string, std::string>> rates;
+    bool inside = false;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("| values | frames per period, with velocities |")) inside = true;
+        if (inside && line.empty()) break;
+        std::smatch cells;
+        static const std::regex row(R"(.*\| (\d+) \| (\d+|none) \|)");
+        if (inside && std::regex_match(line, cells, row)) rates.emplace(cells[1], cells[2]);
+    }
+    return rates;
+}
+
+// Only slow tests measure the bias at these rates.
+TEST(Quantities, HaveTheFrameRatesOfTheDocumentation) {
+    const auto text = [](double rate) {
+        return rate == never_enough ? std::string("none") : fmt::format("{:.0f}", rate);
+    };
+    std::set<std::pair<std::string, std::string>> rates;
+    for (const Quantity& row : all_quantities::rows)
+        if (row.min_rates.of_tracks > 0.0)
+            rates.emplace(text(row.min_rates.of_frames), text(row.min_rates.of_tracks));
+    EXPECT_EQ(rates, documented_rates());
 }
 
 TEST(Quantities, HaveTheDimensionOfTheirUnit) {

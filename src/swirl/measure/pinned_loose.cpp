@@ -106,10 +106,11 @@ void PinnedLoose::sum_window() {
 
 void PinnedLoose::sample(const MFrameView& view) {
     const std::size_t n = view.size();
+    if (n == 0) return restart(0);
     const double step = view.time - last_time_;
     if (n != pinned_.size()) {
         restart(n);
-    } else if (frames_ > 0) {
+    } else {
         const bool even = frames_ == 1 || std::abs(step - step_) <= 0.01 * step_;
         if (!(step > 0.0) || !even) {
             breaks_ += 1.0;
@@ -119,7 +120,6 @@ void PinnedLoose::sample(const MFrameView& view) {
         }
     }
     last_time_ = view.time;
-    if (n == 0) return;
 
     double *const oldest_x = slot(past_x_, frames_), *const oldest_y = slot(past_y_, frames_);
     if (is_known() && frames_ % frames_between_sums != 0) {
