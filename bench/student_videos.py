@@ -1,39 +1,18 @@
-"""Videos as students and laboratories make them: swirl track, and on request a baseline, against
-the ground truth.
+"""Videos as students and laboratories make them, which score_tracking.py scores.
 
-    student_videos.py               the tables of kinds in docs/results/tracking_accuracy.md
-                                    (minutes)
-    student_videos.py --baseline    with the tracker of opencv_tracker.py on the same videos; needs
-                                    opencv and scipy
-    student_videos.py --kind NAME   this kind only; may be repeated
-    student_videos.py --periods N   length of the students' videos [4]
-    student_videos.py --seed N      of the discs and the camera, in place of that of each kind; may
-                                    be repeated
-
-SWIRL is the program. A student's video has 28 discs and is made by `swirl synthetic-video --camera
-student` (30 frames per second, 2 periods per second, 640x480 pixels) with the options of its kind.
-
-In interlaced videos the odd rows are half a frame interval later than the even rows. The ground
-truth is that of the even rows. A video by hand starts and stops, and its speed varies by a fourth.
-A video that is rejected with a hint is tracked again with the options of the hint.
+A student's video has 28 discs and is made by `swirl synthetic-video --camera student` (30 frames
+per second, 2 periods per second, 640x480 pixels) with the options of its kind. In interlaced videos
+the odd rows are half a frame interval later than the even rows. The ground truth is that of the
+even rows. A video by hand starts and stops, and its speed varies by a fourth.
 """
 
-import argparse
-import itertools
 import json
 import math
 import os
-import re
-import resource
 import subprocess
-import sys
-import tempfile
-import time
 
-for folder in ("tests/cli", "track/tests"):
-    sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", folder))
-import track_test  # noqa: E402
-from program import HANG, swirl  # noqa: E402
+import track_test
+from program import HANG, swirl
 
 PERIOD = 15  # frames
 WIDTH, HEIGHT = 640, 480  # pixels
@@ -144,8 +123,9 @@ class Video:
     """A video of one kind with its ground truth: {frame: {disc: (x, y)}} and the container's
     centres."""
 
-    def __init__(self, folder, kind, periods, seed):
+    def __init__(self, folder, kind, periods, seed, columns=("x_ideal", "y_ideal")):
         self.name, options, after = kind
+        self.columns = columns  # of the truth: with x and y, tilt and lens are not corrected
         self.seed = seed
         made = os.path.join(folder, "made.mp4")
         self.complete = after == "complete"
@@ -158,7 +138,6 @@ class Video:
             (float(row["x_ideal"]), float(row["y_ideal"]))
             for row in track_test.rows(made[:-4] + ".container.csv")
         ]
-        self.dark = "steel" in self.name
         self.path, regular = made, even if after == "by hand" else self.truth
         if after == "uneven":
             regular = self.drop_frames(folder, made)
@@ -201,9 +180,9 @@ class Video:
             "synthetic-video", *call, "--out", made, "--quiet", "--overwrite", timeout=HANG
         )
         if done.returncode != 0:
-            sys.exit(done.stderr)
+            raise RuntimeError(done.stderr)
         self.about = track_test.Truth(made).about
-        self.truth = track_test.positions(made[:-4] + ".truth.csv", "x_ideal", "y_ideal")
+        self.truth = track_test.positions(made[:-4] + ".truth.csv", *self.columns)
 
     def drop_frames(self, folder, made):
         """One frame in four, at uneven times that the file gives."""
@@ -261,7 +240,7 @@ class Video:
 
 
 def rotation(folder, positions, about):
-    """ϖ/Ω by time of {frame: {id: (x, y)}}, and its error."""
+    """ϖ/Ω of {frame: {id: (x, y)}} as of a rigid body by time, and its error."""
     table = os.path.join(folder, "positions.csv")
     with open(table, "w", encoding="utf-8") as file:
         file.write("frame,particle,x,y\n")
@@ -289,183 +268,10 @@ def rotation(folder, positions, about):
 
 
 def measured(*call):
-    """ϖ/Ω by time and its error. Overlaps are permitted in all frames: inaccurate positions are
-    scored, not rejected."""
+    """ϖ/Ω as of a rigid body by time, and its error. Overlaps are permitted in all frames:
+    inaccurate positions are scored, not rejected."""
     done = swirl(*call, "--max-invalid", 1, "--json", "-")
     if done.returncode != 0:
         return math.nan, math.nan
-    found = json.loads(done.stdout)["rotation"]["mean_by_time"]
+    found = json.loads(done.stdout)["rotation"]["rigid_by_time"]
     return tuple(math.nan if found[name] is None else found[name] for name in ("mean", "error"))
-
-
-class Result(track_test.Score):
-    """The score of tracks with ϖ. Frames before the first and after the last tracked one are not
-    scored."""
-
-    def __init__(self, video, found, varpi):
-        truth = {
-            frame: discs
-            for frame, discs in video.truth.items()
-            if min(found) <= frame <= max(found)
-        }
-        super().__init__(truth, found, video.about)
-        self.varpi = varpi
-        radius, there, total = 0.5 * video.about["scale"], 0, 0
-        for frame, discs in truth.items():
-            tracked = list(found.get(frame, {}).values())
-            total += len(discs)
-            there += sum(any(math.dist(p, q) < radius for q in tracked) for p in discs.values())
-        self.found = there / total
-        self.radius = self.container = math.nan  # relative errors of r and of R/r
-
-    def score_radii(self, camera, about):
-        radius = camera["species"][0]["radius"]
-        self.radius = radius / about["scale"] - 1.0
-        self.container = (
-            camera["container"]["radius"] / radius * about["scale"] / about["container_radius"]
-            - 1.0
-        )
-
-
-def track(folder, video):
-    """The result of swirl track, the claimed error, and what the program printed. The result is
-    None if the video is rejected, also with the frames of the hint."""
-    out = os.path.join(folder, "tracks.csv")
-    options, said = [], ""
-    for _ in range(2):
-        done = swirl(
-            "track", video.path, "--out", out, "--overwrite", "--quiet", *options, timeout=HANG
-        )
-        said += done.stderr
-        if done.returncode == 0:
-            break
-        options = re.findall(
-            r"--(?:first-frame|last-frame|correct-frames) \S+|--discs",
-            done.stderr.partition("hint:")[2],
-        )
-        options = [
-            word
-            for option in options
-            for word in ((option, video.about["discs"]) if option == "--discs" else option.split())
-        ]
-        if not options:
-            break
-    if done.returncode != 0:
-        return None, math.nan, said
-    if options:
-        said += "tracked with " + " ".join(map(str, options)) + "\n"
-    with open(out[:-4] + ".camera.json", encoding="utf-8") as file:
-        camera = json.load(file)
-    result = Result(video, track_test.positions(out), measured("measure", out))
-    result.score_radii(camera, video.about)
-    return result, camera["quality"]["position_error"], said
-
-
-def track_with_baseline(video):
-    """The result of opencv_tracker.py, which is given the radius, the number and the brightness of
-    the discs."""
-    import cv2
-    import opencv_tracker
-
-    frames, film = [], cv2.VideoCapture(video.path)
-    while (read := film.read())[0]:
-        frames.append(cv2.cvtColor(read[1], cv2.COLOR_BGR2GRAY))
-    about, start = dict(video.about), time.process_time()
-    found, path, radius, container = opencv_tracker.track(
-        frames, about["scale"], about["discs"], not video.dark
-    )
-    seconds = 1000.0 * (time.process_time() - start) / len(frames)
-    result = Result(video, found, None)
-    result.score_radii({"species": [{"radius": radius}], "container": {"radius": container}}, about)
-    about.update(
-        scale=radius,
-        centre=path[:2].tolist(),
-        amplitude=float(path[2]),
-        omega=abs(float(path[3])),
-        phase=math.degrees(path[4]),
-        container_radius=container,
-    )
-    with tempfile.TemporaryDirectory(prefix="swirl-baseline-") as folder:
-        result.varpi = rotation(folder, found, about)
-    return result, seconds
-
-
-HEAD = [
-    "found",
-    "swaps per 1000",
-    "rms, pixels",
-    "error of r",
-    "error of R/r",
-    "ϖ/Ω",
-    "s per 1000 frames",
-]
-
-
-def cells(result, seconds):
-    if result is None:
-        return ["rejected"] + (len(HEAD) - 1) * [""]
-    varpi = f"{result.varpi[0]:.3f}" + (
-        f" ± {result.varpi[1]:.3f}" if result.varpi[1] >= 0.0 else ""
-    )
-    return [
-        f"{100 * result.found:.1f} %",
-        f"{result.swaps_per_thousand:.0f}",
-        f"{result.rms:.2f}",
-        f"{100 * result.radius:+.1f} %",
-        f"{100 * result.container:+.1f} %",
-        varpi,
-        f"{seconds:.0f}",
-    ]
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--baseline", action="store_true")
-    parser.add_argument("--kind", action="append")
-    parser.add_argument("--periods", type=int, default=4)
-    parser.add_argument("--seed", type=int, action="append")
-    call = parser.parse_args()
-    head = [
-        "kind",
-        "ϖ/Ω, true",
-        "claimed/true",
-        *HEAD,
-        *(f"baseline: {name}" for name in HEAD if call.baseline),
-    ]
-    print("| " + " | ".join(head) + " |\n|" + len(head) * "---|", flush=True)
-    with tempfile.TemporaryDirectory(prefix="swirl-students-") as folder:
-        for kind, seed in itertools.product(KINDS, call.seed or [None]):
-            if call.kind and kind[0] not in call.kind:
-                continue
-            video = Video(folder, kind, call.periods, seed)
-            used = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
-            result, claimed, message = track(folder, video)
-            seconds = (
-                (resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - used)
-                * 1000.0
-                / len(video.truth)
-            )
-            row = [
-                video.name,
-                f"{video.varpi[0]:.3f}",
-                "" if result is None else f"{claimed / result.rms:.2f}",
-                *cells(result, seconds),
-            ]
-            if call.baseline:
-                try:
-                    row += cells(*track_with_baseline(video))
-                except (
-                    ValueError,
-                    IndexError,
-                    ZeroDivisionError,
-                    TypeError,
-                ) as failure:  # no rim, or no discs
-                    row += cells(None, 0.0)
-                    message += f"baseline: {failure}\n"
-            print("| " + " | ".join(row) + " |", flush=True)
-            for line in message.splitlines():
-                print(f"{video.name}: {line}", file=sys.stderr, flush=True)
-
-
-if __name__ == "__main__":
-    main()

@@ -26,7 +26,7 @@ ALLOWED = {
         "paper/authors_data.py",
         "scatter",
     ): "one run of the authors is compared with three of ours: the scatter of single runs",
-    ("bench/opencv_tracker.py", "scatter"): "a tracker with which ours is compared",
+    ("bench/other_scenes.py", "scatter"): "scales noise, and estimates no error",
     ("paper/cluster_axis.py", "scatter"): "how much an angle varies, which is no error of a mean",
     (
         "paper/chapters/critical.py",

@@ -117,7 +117,7 @@ TEST(Lens, WeakDistortionBySizesNeedsSupportOfContacts) {
 
 TEST(Lens, WeakNegativeDistortionIsNone) {
     // Shade makes k too small, and contacts may agree with it by chance: the balls of steel of
-    // bench/student_videos.py give the last values without a lens.
+    // bench/score_tracking.py give the last values without a lens.
     EXPECT_EQ(combined(-0.006, -0.005, 0.0025), 0.0);
     EXPECT_EQ(combined(-0.0149, -0.0119, 0.0055), 0.0);
     EXPECT_LT(combined(-0.033, -0.029, 0.0025), -0.029);
