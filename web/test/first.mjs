@@ -1,17 +1,15 @@
 // Tests the first page in Chromium: node first.mjs FOLDER CHROMIUM [--all], where FOLDER holds both
 // pages. Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
-import {createRequire} from "node:module";
 import {join} from "node:path";
 import {pathToFileURL} from "node:url";
-import {launch} from "./browser.mjs";
+import {launch, violationsOf} from "./browser.mjs";
 import {inEachFont} from "./fonts.mjs";
 
 const [folder, executablePath] = process.argv.slice(2);
 const all = process.argv.includes("--all");
 const address = pathToFileURL(join(folder, "index.html")).href;
 const browser = await launch(executablePath);
-const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 const controls = "button, input, select, summary, [role=slider]";
 
 const said = (page) => page.textContent("#sentence");
@@ -23,7 +21,6 @@ const isSaid = (page, pattern) =>
 const open = async (query, options = {}) => {
     const page = await browser.newPage({viewport: {width: 360, height: 640}, ...options});
     page.on("pageerror", (error) => assert.fail(error.message));
-    await page.addInitScript({path: axe});
     await page.goto(address + query);
     return page;
 };
@@ -32,16 +29,7 @@ const choose = async (page, number) => {
     const {x, y, width, height} = await page.locator("#row").boundingBox();
     await page.mouse.click(x + 18 + ((number - 3) * (width - 36)) / 52, y + height / 2);
 };
-const hasNoViolation = async (page, where) => {
-    const violations = await page.evaluate(async () =>
-        (
-            await globalThis.axe.run({
-                runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
-            })
-        ).violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`),
-    );
-    assert.deepEqual(violations, [], where);
-};
+const hasNoViolation = async (page, where) => assert.deepEqual(await violationsOf(page), [], where);
 
 // The layout: one dish on at least 40 % of the screen, at most five controls of at least 44 pixels,
 // at most ten words in the sentence; nothing is cut off or covers the dish.

@@ -5,9 +5,8 @@
 import assert from "node:assert/strict";
 import {readFileSync, writeFileSync} from "node:fs";
 import {createServer} from "node:http";
-import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
-import {launch} from "./browser.mjs";
+import {launch, violationsOf} from "./browser.mjs";
 import {inEachFont} from "./fonts.mjs";
 
 const [file, executablePath, wantedHash, image, folder] = process.argv.slice(2);
@@ -34,7 +33,6 @@ page.on("console", (message) => message.type() === "error" && errors.push(messag
 page.on("request", (request) => {
     if (!/^(file|data|blob):/.test(request.url())) requests.push(request.url());
 });
-await page.addInitScript({path: createRequire(import.meta.url).resolve("axe-core/axe.min.js")}); // the page runs its own script only
 // Records the full circles that the page draws, in pixels of the canvas.
 await page.addInitScript(() => {
     globalThis.drawnCircles = [];
@@ -46,20 +44,7 @@ await page.addInitScript(() => {
         return arc.call(this, x, y, r, ...angles);
     };
 });
-/** Fails if axe-core finds a violation of WCAG 2.1, levels A and AA. */
-const requireAccessible = async (where) => {
-    const {violations, passes} = await page.evaluate(() =>
-        globalThis.axe.run({
-            runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "best-practice"],
-        }),
-    );
-    assert.ok(passes.length > 15, `${where}: only ${passes.length} rules were tried`);
-    assert.deepEqual(
-        violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`),
-        [],
-        where,
-    );
-};
+const requireAccessible = async (where) => assert.deepEqual(await violationsOf(page), [], where);
 const text = (id) => page.textContent(`#${id}`);
 /** The name and the bytes of a button's download. */
 const downloaded = async (button) => {

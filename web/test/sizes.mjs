@@ -2,9 +2,8 @@
 // [--all] [WIDTH…]. Without --all it tests a laptop at twice the size and the smallest phone only,
 // with widths only those. Exits with 1 and a message if a test fails.
 import assert from "node:assert/strict";
-import {createRequire} from "node:module";
 import {pathToFileURL} from "node:url";
-import {launch} from "./browser.mjs";
+import {launch, violationsOf} from "./browser.mjs";
 import {inEachFont} from "./fonts.mjs";
 
 const [file, executablePath, ...more] = process.argv.slice(2);
@@ -12,7 +11,6 @@ const widths = more.map(Number).filter((width) => width > 0);
 const all = process.argv.includes("--all");
 const address = pathToFileURL(file).href;
 const browser = await launch(executablePath);
-const axe = createRequire(import.meta.url).resolve("axe-core/axe.min.js");
 
 /** Texts have four sizes, and what can be pressed has sides of at least 44 pixels. */
 const hasTargets = async (page, where) => {
@@ -77,7 +75,6 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
         colorScheme,
         reducedMotion: "reduce",
     });
-    await page.addInitScript({path: axe});
     await page.goto(`${address}?lang=${lang}${query}`);
     await page.waitForFunction(
         () => Number(document.getElementById("period-count")?.textContent.replace(",", ".")) >= 30,
@@ -158,14 +155,7 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
     assert.ok(names.length > 40 && new Set(names).size === names.length, `${where}: ${names}`);
     const wideOpen = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wideOpen <= width, `${where}: the open page is ${wideOpen} wide`);
-    const violations = await page.evaluate(async () =>
-        (
-            await globalThis.axe.run({
-                runOnly: ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"],
-            })
-        ).violations.map(({id, nodes}) => `${id}: ${nodes[0].html}`),
-    );
-    assert.deepEqual(violations, [], where);
+    assert.deepEqual(await violationsOf(page), [], where);
     // With forced colours and in print the gauge, the sliders and the legends are still there.
     const marks = () =>
         page.$$eval(".needle, .shape", (all) =>
