@@ -98,6 +98,9 @@ CameraView::CameraView(const CameraSettings& settings)
     const Vec2 side = unit_circle(settings.towards / 360.0);
     side_ = {side.x, -side.y};
     nearness_ = std::tan(settings.view_angle * pi / 360.0) / (0.5 * settings.size.height);
+    const double tilt = settings.tilt * pi / 180.0;
+    lean_at_middle_ = std::tan(tilt) * side_;
+    lean_per_pixel_ = nearness_ / std::cos(tilt);
     const std::size_t pixels = std::size_t(settings.size.width) * std::size_t(settings.size.height);
     grain_.resize(pixels);
     for (float& g : grain_) g = float(nearly_normal(random_));
@@ -128,8 +131,7 @@ Vec2 CameraView::in_plane(const Vec2& undistorted) const {
 }
 
 Vec2 CameraView::lean(const Vec2& ideal) const {
-    const double angle = settings_.tilt * pi / 180.0;
-    return std::tan(angle) * side_ - (nearness_ / std::cos(angle)) * (ideal - middle_);
+    return lean_at_middle_ - lean_per_pixel_ * (ideal - middle_);
 }
 
 Vec2 CameraView::seen(const Vec2& ideal) const {

@@ -136,6 +136,8 @@ class CameraView {
     Vec2 centre_, middle_;
     Vec2 side_;                       // side of the camera, a unit vector
     double nearness_;                 // 1/F
+    Vec2 lean_at_middle_;
+    double lean_per_pixel_;
     std::vector<std::size_t> order_;  // of drawing: discs that others may hide come first
     Random random_;
     std::vector<float> grain_;
