@@ -134,8 +134,8 @@ class CameraView {
 
     CameraSettings settings_;
     Vec2 centre_, middle_;
-    Vec2 side_;                       // side of the camera, a unit vector
-    double nearness_;                 // 1/F
+    Vec2 side_;        // side of the camera, a unit vector
+    double nearness_;  // 1/F
     Vec2 lean_at_middle_;
     double lean_per_pixel_;
     std::vector<std::size_t> order_;  // of drawing: discs that others may hide come first
