@@ -38,7 +38,7 @@ MovieConfig movie_config(const MovieCall& call) {
     const bool gif = call.out.size() > 4 && call.out.ends_with(".gif");
     config.appearance = appearance(*call.appearance, gif ? Size{800, 450} : Size{1920, 1080});
     config.sources = frame_sources(*call.source);
-    config.frames_per_second = call.frames_per_second.value_or(gif ? 25 : 60);
+    config.frames_per_second = call.frames_per_second.value_or(gif ? 20 : 60);
     const FrameSource& first = config.sources.front();
     // Over camera images, each of them is shown once.
     config.pace = call.pace.value_or(
@@ -109,7 +109,7 @@ void add_movie_command(Subcommand& subcommand) {
         {"--seconds", &call->seconds, "Duration of the movie [10; .gif: 6]", "SECONDS"},
         {"--periods", &call->periods, "Duration in periods, instead of --seconds", "PERIODS"},
         {"--pace", &call->pace, "Periods per second of the movie [2]", "NUMBER"},
-        {"--fps", &call->frames_per_second, "Frames per second [60; .gif: 25]", "NUMBER"},
+        {"--fps", &call->frames_per_second, "Frames per second [60; .gif: 20]", "NUMBER"},
         {"--start", &call->start, "Period of the first frame [20; of FILE: its first]", "PERIODS"},
         {"--quiet", &call->quiet, "Suppress progress and report"},
     });
