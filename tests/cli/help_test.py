@@ -16,6 +16,7 @@ from program import (
     commands,
     described_options,
     help_of,
+    option_of,
     read_text,
     result_of,
     swirl,
@@ -275,8 +276,7 @@ class Help(ProgramTest):
             self.assertNotIn("-", key, path)
         for key in result["config"]:
             if key != "omega":  # derived from the period
-                option = {"path": "motion", "path_phase": "start_angle"}.get(key, key)
-                self.assertIn(option.replace("_", "-"), options)
+                self.assertIn(option_of(key)[2:], options)
 
     def test_version_is_one_line(self):
         done = self.assert_works("--version")

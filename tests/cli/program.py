@@ -35,19 +35,6 @@ def text_of(value):
     return ":".join(map(str, value)) if isinstance(value, list) else str(value)
 
 
-# Keys of results whose option has another name.
-OPTION_OF_KEY = {"path": "motion", "path_phase": "start_angle"}
-
-
-def option_of(key):
-    return "--" + OPTION_OF_KEY.get(key, key).replace("_", "-")
-
-
-def options(scene):
-    """The options of the command line for a scene."""
-    return [word for name, value in scene.items() for word in (option_of(name), text_of(value))]
-
-
 def slow(reason):
     """Decorator: the test belongs to the suite `slow`, for this reason."""
     return unittest.skipUnless(ALL, "in the suite slow: " + reason)
@@ -160,6 +147,19 @@ def read_bytes(path):
 
 def read_json(path):
     return json.loads(read_text(path))
+
+
+# Keys of results whose option has another name (tests/run/nearest_name_test.cpp compares them).
+OPTION_OF_KEY = read_json(os.path.join(SOURCE, "web/src/texts/option_of_key.json"))
+
+
+def option_of(key):
+    return "--" + OPTION_OF_KEY.get(key, key).replace("_", "-")
+
+
+def options(scene):
+    """The options of the command line for a scene."""
+    return [word for name, value in scene.items() for word in (option_of(name), text_of(value))]
 
 
 def read_rows(path):

@@ -1,5 +1,6 @@
-// The colours with a meaning have one table, that of color.hpp and theme.hpp. The browser page, the
-// Python module and the figures read copies of it, which this test writes:
+// The colours with a meaning have one table, that of color.hpp and theme.hpp. The least number of
+// turns that is drawn is in scene.hpp. The browser page, the Python module and the figures read
+// copies of both, which this test writes:
 //
 //     SWIRL_WRITE_DOCS=1 build/tests/tests/test_render --gtest_filter='Look.*'
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 
 #include "swirl/math/unit_circle.hpp"
 #include "swirl/render/color.hpp"
+#include "swirl/render/scene.hpp"
 #include "swirl/render/theme.hpp"
 
 namespace swirl {
@@ -54,9 +56,11 @@ std::string json() {
                 fmt::format("{}    \"{}\": \"{}\"", rows.empty() ? "" : ",\n", meaning, hex(color));
         text += fmt::format("  \"{}\": {{\n{}\n  }},\n", name, rows);
     }
-    return text +
-           fmt::format("  \"sectors\": [{}],\n  \"ids\": [{}],\n  \"sequential\": [{}]\n}}\n",
-                       quoted(sector_colors), quoted(distinct_colors), quoted(sequential_stops));
+    return text + fmt::format(
+                      "  \"sectors\": [{}],\n  \"ids\": [{}],\n  \"sequential\": [{}],\n"
+                      "  \"leastTurns\": {}\n}}\n",
+                      quoted(sector_colors), quoted(distinct_colors), quoted(sequential_stops),
+                      least_turns);
 }
 
 std::string python() {

@@ -1,7 +1,14 @@
-// Suggestions for names that do not exist.
+// Suggestions for names that do not exist, and the options that have another name than their key.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <string>
+
 #include "swirl/run/names.hpp"
+#include "swirl/run/parameters.hpp"
 
 namespace swirl {
 namespace {
@@ -78,6 +85,26 @@ TEST(OptionName, IsNotTheKeyForTheMotionOfTheContainer) {
     EXPECT_EQ(option_name("path_phase"), "--start-angle");
     EXPECT_EQ(plain_name("start-angle"), "path_phase");
     EXPECT_EQ(user_name("path"), "motion");
+}
+
+// The page and the tests of the program read this copy.
+TEST(OptionName, TheCopyOfThePageIsUpToDate) {
+    std::string rows;
+    for (const Parameter& p : run_parameters) {
+        if (const std::string option = user_name(p.name); option != p.name)
+            rows += fmt::format("{}\"{}\": \"{}\"", rows.empty() ? "" : ", ", p.name, option);
+    }
+    const std::string wanted = "{" + rows + "}\n";
+    const std::string file = std::string(SWIRL_SOURCE_DIR) + "/web/src/texts/option_of_key.json";
+    if (std::getenv("SWIRL_WRITE_DOCS")) {
+        std::ofstream(file) << wanted;
+        return;
+    }
+    std::ostringstream there;
+    there << std::ifstream(file).rdbuf();
+    EXPECT_EQ(there.str(), wanted)
+        << "This command writes the file: SWIRL_WRITE_DOCS=1 build/tests/tests/test_run "
+           "--gtest_filter='OptionName.*'";
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ inline constexpr std::pair<std::string_view, Coloring> colorings[] = {
     {"id", Coloring::id}};
 
 /// The number of turns is 0.00 below it: nothing has turned, so there is no arc, sign or colour.
+/// The page has a copy (tests/render/look_test.cpp).
 inline constexpr double least_turns = 0.005;
 
 struct SceneStyle {

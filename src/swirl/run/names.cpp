@@ -27,7 +27,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 using NamePair = std::pair<std::string_view, std::string_view>;
 
-/// Parameters whose option has another name than their key in results, recordings and tables.
+/// Parameters whose option has another name than their key in results, recordings and tables. The
+/// page has a copy (tests/run/nearest_name_test.cpp).
 constexpr NamePair option_of_key[] = {{"path", "motion"}, {"path_phase", "start_angle"}};
 
 /// Former and present names of options of commands that read a configuration file.

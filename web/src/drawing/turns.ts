@@ -1,5 +1,6 @@
 // Marks, arrows and arcs around the container: its wall, the direction of the swirl, and the turns
 // of the cluster.
+import look from "./look.json";
 import type {Palette} from "./palette";
 import type {Frame} from "./view";
 
@@ -18,15 +19,17 @@ export function drawWallMark(
     context.stroke();
 }
 
-/** The direction in which the container moves on its path: an arrow at the edge of the image. */
+/** The direction in which the container moves on its path: an arrow, by default at the left edge of
+ *  the image. */
 export function drawSwirl(
     context: CanvasRenderingContext2D,
     radius: number,
     palette: Palette,
     hair: number,
+    from = 0.8 * Math.PI,
+    to = 1.25 * Math.PI,
 ): void {
-    const [from, to] = [0.8 * Math.PI, 1.25 * Math.PI],
-        [c, s] = [Math.cos(to), Math.sin(to)],
+    const [c, s] = [Math.cos(to), Math.sin(to)],
         length = 11 * hair;
     context.strokeStyle = context.fillStyle = palette.quiet;
     context.lineWidth = 3 * hair;
@@ -39,8 +42,6 @@ export function drawSwirl(
         context.lineTo((radius + side * length) * c, (radius + side * length) * s);
     context.fill();
 }
-
-const leastTurns = 0.005; // the number next to the arc is 0.00 below it
 
 /** An arc around the wall that starts at the top, as in movies: the fraction of the last turn of
  *  the cluster. Each whole turn is a ring outside the arc, up to three. The arc begins beyond the
@@ -57,7 +58,7 @@ export function drawTurns(
         rest = turns - whole,
         radius = frame.radius + edge + 3 * hair;
     if (!(frame.radius > 20 * hair)) return; // the container is a dot at this scale
-    if (Math.abs(turns) < leastTurns) return;
+    if (Math.abs(turns) < look.leastTurns) return;
     const [cx, cy] = frame.centre,
         from = 0.5 * Math.PI,
         to = from + 2 * Math.PI * rest,

@@ -1,4 +1,5 @@
 // The symbols and commands of the page, the same in every language.
+import optionOfKey from "./option_of_key.json";
 
 /** As in the paper. */
 export const symbols = {
@@ -26,17 +27,18 @@ export const commands = {
 /** A page of the documentation in the folder of the sources. */
 export const documentIn = (page: string): string => `docs/${page}.md`;
 
-/** Parameters whose option has another name than their key (src/swirl/run/names.cpp). */
-const optionOfKey: Record<string, string> = {path: "motion", path_phase: "start_angle"};
+/** Parameters whose option has another name than their key (tests/run/nearest_name_test.cpp writes
+ *  them). */
+const optionsOfKeys: Record<string, string> = optionOfKey;
 
 /** "--mu-disc" for the key of a parameter. */
 export const optionOf = (key: string): string =>
-    `--${(optionOfKey[key] ?? key).replaceAll("_", "-")}`;
+    `--${(optionsOfKeys[key] ?? key).replaceAll("_", "-")}`;
 
 /** The key of a parameter for its option without hyphens at the start. */
 export const keyOf = (option: string): string => {
     const name = option.replaceAll("-", "_");
-    return Object.keys(optionOfKey).find((key) => optionOfKey[key] === name) ?? name;
+    return Object.keys(optionsOfKeys).find((key) => optionsOfKeys[key] === name) ?? name;
 };
 
 /** A message with the names of fields instead of options; within a sentence they begin with a small
