@@ -186,7 +186,7 @@ CAPTIONS = {
     "swirl, S, C and M "
     "are at rest and the wall rotates clockwise with −Ω. Right: the inertial forces in the "
     "M-frame, the centrifugal "
-    "force away from S (orange) and, on one disc, the Coriolis force to the right of its velocity "
+    "force away from S (ochre) and, on one disc, the Coriolis force to the right of its velocity "
     "v.",
     "2a": "One instant in the M-frame. By the SI's criterion, pinned discs move along the wall "
     "until they change their "

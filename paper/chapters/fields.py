@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from paper import style
+from paper import look, style
 from paper.combine import at, number
 from paper.curves import with_error
 from paper.standard_runs import Dish, dish_run
@@ -164,7 +164,7 @@ def draw_fields(table):
         "packing",
         "(a) packing and flow",
         r"packing fraction $\varphi$",
-        "Blues",
+        "Greys",
         False,
     )
     flow = about_the_mean(dense)
@@ -174,7 +174,7 @@ def draw_fields(table):
         flow,
         step[1] - step[0],
         max(map(style.speed, flow), default=1.0) or 1.0,
-        style.RED,
+        look.ACCENT,
         key=(0.3, -0.06),
     )
     panel(

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from paper import style
+from paper import look, style
 from paper.combine import at
 from paper.engine import swirl
 from paper.figure import Figure
@@ -169,7 +169,7 @@ def draw(table_file):
                 ((RADIUS + 0.6) * np.cos(a), (RADIUS + 0.6) * np.sin(a)),
                 arrowprops={
                     "arrowstyle": "-|>",
-                    "color": style.ORANGE,
+                    "color": look.ACCENT,
                     "linewidth": 0.8,
                     "mutation_scale": 6,
                 },
@@ -192,15 +192,13 @@ def draw(table_file):
                     (row["y"], row["y2"]),
                     linewidth=5 * row["value"] / largest,
                     zorder=3,
-                    color=style.BLUE if row["kind"] == "neighbours" else style.ORANGE,
+                    color=style.GREY if row["kind"] == "neighbours" else look.ACCENT,
                     solid_capstyle="butt",
                 )
         for row in here:
             if row["kind"] == "sphere":
                 draw_spin(panel, row["x"], row["y"], row["value"])
-        panel.text(
-            0, -RADIUS - 1.0, "M", ha="center", va="top", fontsize=style.SMALLEST, color=style.PINK
-        )
+        panel.text(0, -RADIUS - 1.0, "M", ha="center", va="top", fontsize=style.SMALLEST)
         panel.set(xlim=(-9.8, 9.8), ylim=(-10.8, 9.8), aspect="equal")
         panel.set_title(
             f"{title.replace(' without', chr(10) + 'without')}\n{words}", fontsize=style.SMALLEST
@@ -217,7 +215,7 @@ FIGURES = [
         points,
         table,
         draw,
-        caption="Spheres of the experiment in the M-frame. Orange: normal force of the wall. Blue: "
+        caption="Spheres of the experiment in the M-frame. Magenta: normal force of the wall. Grey: "
         "normal "
         "forces between neighbours. Line widths are forces, averaged over 0.12 periods. Round "
         "arrows: spins; a free bearing (7.5 Ω) has 300°. All panels have the same scales.",

@@ -165,13 +165,13 @@ def draw_frames(table):
                     forces,
                     p,
                     p + 1.5 * spacing / (R + A) * (p - (0, A)),
-                    style.ORANGE,
+                    look.CENTRIFUGAL,
                     mutation_scale=4,
                 )
     forces.add_patch(style.plt.Circle(at, 1, color=style.GREEN))
     u *= 2.9 / max(np.hypot(*u), 1e-300)
     force = 0.85 * np.array([u[1], -u[0]])  # 2 Ω |v|, to the right of v
-    for arm, color, name in ((u, style.BLUE, "$v$"), (force, style.PINK, r"$F_{\rm Cor}$")):
+    for arm, color, name in ((u, style.BLACK, "$v$"), (force, look.CORIOLIS, r"$F_{\rm Cor}$")):
         arrow(forces, at, at + arm, color, zorder=5)
         forces.annotate(
             name,
@@ -182,7 +182,7 @@ def draw_frames(table):
             va="center",
         )
     forces.text(
-        0.72 * R, -1.02 * R, r"$F_{\rm cent}$", color=style.ORANGE, fontsize=style.SMALLEST + 1
+        0.72 * R, -1.02 * R, r"$F_{\rm cent}$", color=look.CENTRIFUGAL, fontsize=style.SMALLEST + 1
     )
     for axes, title in (
         (lab, "lab frame: $C$ circles $S$,\nthe container does not rotate"),
