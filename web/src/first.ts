@@ -7,7 +7,7 @@ import {byId, dark, localized} from "./elements/page";
 import {paletteOf} from "./drawing/palette";
 import {DishRun} from "./first/dish";
 import {Measured, settled, type Values} from "./first/points";
-import {drawRow, fewest, most, numberAt} from "./first/row";
+import {drawRow, fewest, most, numberAt, placeOf} from "./first/row";
 import {Stage} from "./first/stage";
 import {words, type Way} from "./first/words";
 import {isEmbedded, language, startParameters} from "./texts/start";
@@ -115,6 +115,15 @@ function describe(): void {
     byId("reversal").textContent = reversal
         ? fill(words.reversal, {from: reversal[0], to: reversal[1]})
         : "";
+    if (reversal)
+        placeBelowRow(byId("reversal"), (placeAt(reversal[0]) + placeAt(reversal[1])) / 2);
+}
+/** The place of a number on the page. */
+const placeAt = (number: number): number => row.offsetLeft + placeOf(number, row.clientWidth);
+/** Centres a text at a place, as far as the window is wide enough. */
+function placeBelowRow(text: HTMLElement, middle: number): void {
+    const most = document.documentElement.clientWidth - text.offsetWidth - 8;
+    text.style.marginLeft = `${Math.max(8, Math.min(most, middle - text.offsetWidth / 2))}px`;
 }
 
 function draw(): void {
@@ -130,6 +139,7 @@ function draw(): void {
             oilsRim: on.has("rim"),
             oilsDiscs: on.has("discs"),
             holdsSpins: on.has("hold"),
+            isByHand: dish.isByHand,
             isPaused: !isPlaying && !dish.isByHand,
             palette,
         });

@@ -158,8 +158,11 @@ for (const [width, height, colorScheme, lang, query] of all ? every : few) {
     assert.deepEqual(await violationsOf(page), [], where);
     // With forced colours and in print the gauge, the sliders and the legends are still there.
     const marks = () =>
-        page.$$eval(".needle, .shape", (all) =>
-            all.map((each) => getComputedStyle(each).backgroundColor),
+        // In one step: a legend that is written again meanwhile has lost its old elements.
+        page.evaluate(() =>
+            [...document.querySelectorAll(".needle, .shape")].map(
+                (each) => getComputedStyle(each).backgroundColor,
+            ),
         );
     const seen = await marks();
     assert.ok(seen.length >= 2, where);

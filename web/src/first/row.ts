@@ -10,7 +10,8 @@ export const fewest = 3,
 const margin = 18; // pixels at both ends, half of the bead with the number
 const thumb = 13;
 
-const placeOf = (n: number, width: number): number =>
+/** The place of a number, in pixels from the left end of the row. */
+export const placeOf = (n: number, width: number): number =>
     margin + ((n - fewest) * (width - 2 * margin)) / (most - fewest);
 
 /** The number of discs at a place of the row, in pixels from its left end. */

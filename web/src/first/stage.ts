@@ -2,7 +2,7 @@
 // camera moves by itself. When it rides with the swirl, the dish is at rest and its rim runs past.
 import {frameDisc, frameHead} from "../engine/engine";
 import {sectorColors, toned, type Palette} from "../drawing/palette";
-import {drawTurns, drawWallMark} from "../drawing/turns";
+import {drawSwirl, drawTurns, drawWallMark} from "../drawing/turns";
 import {head, type Frame} from "../drawing/view";
 import {sized} from "./canvas";
 
@@ -15,6 +15,7 @@ export interface Scene {
     oilsRim: boolean;
     oilsDiscs: boolean;
     holdsSpins: boolean;
+    isByHand: boolean;
     isPaused: boolean;
     palette: Palette;
 }
@@ -109,8 +110,37 @@ export class Stage {
             hair,
             rim + 0.5 * hair,
         );
+        if (!scene.isByHand) this.drawPath(context, frame, scene, room);
         context.setTransform(ratio, 0, 0, ratio, 0, 0);
         if (scene.isPaused) drawPaused(context, width, height, scene.palette);
+    }
+
+    /** In the lower left corner: the direction of the swirl, as in movies, and where the dish is on
+     *  its way. A camera that rides along does not see it. */
+    private drawPath(
+        context: CanvasRenderingContext2D,
+        {centre}: Frame,
+        {palette}: Scene,
+        room: number,
+    ): void {
+        const radius = 0.085 * room,
+            corner = 1.7 * radius - room;
+        context.save();
+        context.translate(corner, corner);
+        context.globalAlpha = 1 - this.ride;
+        drawSwirl(context, radius, palette, hair, 0, 1.6 * Math.PI);
+        const phase = Math.atan2(centre[1], centre[0]);
+        context.fillStyle = palette.ink;
+        context.beginPath();
+        context.arc(
+            radius * Math.cos(phase),
+            radius * Math.sin(phase),
+            0.26 * radius,
+            0,
+            2 * Math.PI,
+        );
+        context.fill();
+        context.restore();
     }
 
     private moveCamera({centre}: Frame): void {
