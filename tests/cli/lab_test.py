@@ -216,7 +216,7 @@ class Laboratory(ProgramTest):
         self.addCleanup(shutil.rmtree, folder)
         seen = {name: tuple(bytes.fromhex(table[name][1:])) for name in ("with", "against")}
         for discs, direction in ((8, "with"), (48, "against")):
-            scene = ["--discs", str(discs), "--theme", "light", "--quiet"]
+            scene = ["--discs", discs, "--theme", "light", "--size", "640x540", "--quiet"]
             drawn = os.path.join(folder, f"{discs}.png")
             frames = os.path.join(folder, f"frames of {discs}")
             swirl("image", *scene, "--out", drawn)
@@ -746,6 +746,7 @@ class Laboratory(ProgramTest):
                 self.pages,
                 firefox,
                 run["state_hash"],
+                *COMPLETE,
             ],
             capture_output=True,
             text=True,
