@@ -14,7 +14,7 @@ const page = await browser.newPage({viewport: {width: 1200, height: 800}});
 await page.addInitScript(() => {
     globalThis.times = {};
     const signs = {
-        motion: () => Number(document.getElementById("event-count").textContent) > 0,
+        motion: () => Number(document.getElementById("event-count")?.textContent) > 0,
         provisional: () => document.querySelector("#headline strong") !== null,
         firm: () => document.getElementById("verdict").classList.contains("firm"),
     };
