@@ -127,6 +127,14 @@ std::string light_text(const TrackedVideo& video) {
         towards - 360.0 * std::floor(towards / 360.0));
 }
 
+/// What the claimed error of a position follows from.
+std::string error_source(const TrackedVideo& video) {
+    if (!video.contact_fitted && video.bounce_error > 0.0) return "bounces off the wall";
+    if (video.position_error <= video.overlap_error)
+        return video.contact_fitted ? "overlaps" : "free flights";
+    return "edges";
+}
+
 std::string species_text(const TrackedVideo& video) {
     std::string text;
     for (const TrackedSpecies& one : video.species)
@@ -187,7 +195,7 @@ std::string geometry_text(const TrackedVideo& video, const TrackCall& call) {
         with_error(first_phase(video), video.path.phase_error * 180.0 / pi),
         with_error(video.lens.k, video.lens.k_error), video.lens.k != 0.0 ? ", corrected" : "",
         camera_text(video), camera_motion_text(video), light_text(video), video.filled,
-        video.position_error > video.overlap_error ? "edges" : "overlaps");
+        error_source(video));
     if (call.source.disc_diameter)
         text += fmt::format("  scale       {:.5f} mm per pixel, from the discs\n",
                             *call.source.disc_diameter / (2.0 * video.radius));

@@ -132,6 +132,7 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
          {{"contact_ratio", video.contact_ratio},
           {"complete_share", video.complete_share},
           {"position_error", video.position_error},
+          {"position_error_factor", video.error_factor},
           {"overlap_error", video.overlap_error},
           {"filled_positions", video.filled},
           {"possible_swaps", swaps},

@@ -86,6 +86,45 @@ std::optional<Contact> contact_of(const std::vector<double>& distances, double n
                    log_likelihood(seen, spread) / double(used)};
 }
 
+std::optional<FewContacts> contact_of_few(const std::vector<std::vector<double>>& encounters,
+                                          double error) {
+    constexpr double nearest = 1.0 - few_range, farthest = 1.0 + few_range;
+    constexpr std::size_t least = 10;   // encounters
+    constexpr double outliers = 1e-5;   // share of wrong positions in each bin: of few, none
+    constexpr double max_error = 0.01;  // of the contact: an outline is as good
+    if (encounters.size() < least) return std::nullopt;
+    Histogram seen{nearest, (farthest - nearest) / double(bins), {}, outliers};
+    for (const std::vector<double>& distances : encounters)
+        for (const double d : distances) {
+            const auto bin = static_cast<std::size_t>((d - nearest) / seen.width);
+            seen.number[std::min(bin, bins - 1)] += 1.0 / double(distances.size());
+        }
+    // The likelihood of each contact distance, with the best of all other unknowns.
+    std::array<double, bins> logs{};
+    for (std::size_t k = 0; k < bins; ++k) {
+        Spread spread{double(k), std::max(error / seen.width, 0.5), 0.15 * bins, 0.7};
+        maximise<2>({&spread.decay, &spread.share}, {3.0, 0.15}, 0.05, [&] {
+            const bool allowed = spread.decay >= 0.5 && spread.decay <= 2.0 * bins &&
+                                 spread.share >= 0.05 && spread.share <= 1.0;
+            return allowed ? log_likelihood(seen, spread) : -1e300;
+        });
+        logs[k] = log_likelihood(seen, spread);
+    }
+    const double highest = *std::max_element(logs.begin(), logs.end());
+    double sum = 0.0, first = 0.0, second = 0.0;
+    for (std::size_t k = 0; k < bins; ++k) {
+        const double weight = std::exp(logs[k] - highest);
+        sum += weight;
+        first += weight * double(k);
+        second += weight * double(k) * double(k);
+    }
+    const double mean = first / sum, variance = second / sum - mean * mean;
+    const FewContacts found{nearest + seen.width * mean,
+                            seen.width * std::sqrt(std::max(variance, 1.0 / 12.0))};
+    if (found.error > max_error) return std::nullopt;
+    return found;
+}
+
 std::optional<Contact> contact_of_discs(const std::vector<double>& ratios, double at_wall,
                                         double outliers) {
     constexpr double range = 0.1, soft_range = 0.2;  // range from 1

@@ -32,6 +32,16 @@ struct Contact {
 std::optional<Contact> contact_of(const std::vector<double>& distances, double nearest,
                                   double farthest, double outliers = 1e-9);
 
+/// The contact distance with its standard error, of discs that are seldom in contact. An encounter
+/// is all distances within `few_range` of 1 while two discs are near each other, which counts once.
+/// `error` is that of a distance. None if the distances do not determine the contact to 1 %.
+struct FewContacts {
+    double at = 0.0, error = 0.0;
+};
+inline constexpr double few_range = 0.1;
+std::optional<FewContacts> contact_of_few(const std::vector<std::vector<double>>& encounters,
+                                          double error);
+
 /// The contact of discs, from distances in sums of radii: near 1, or farther off if their edges are
 /// soft and their radii wrong. Uses distances within `contact_range` of 1. A contact far off that
 /// is not sharp counts if it is near `at_wall`, which the positions of discs at the wall imply.

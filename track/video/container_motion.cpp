@@ -159,7 +159,7 @@ Vec2 put_back(const TrackedVideo& tracked, std::size_t frame, const Vec2& positi
 
 void fit_container_motion(const TrackingSettings& settings, const ContainerRim& survey,
                           bool uneven_times, Detections& all, TrackedVideo& tracked) {
-    const bool wanders = remove_wandering(all, tracked);
+    const bool wanders = remove_wandering(all, tracked) || remove_drift(all, tracked);
     RimCentres rims = rim_centres(all, tracked);
     if (survey.rough && !wanders) reject_path(rims);
     if (set_times_by_phase(settings, rims, tracked)) {
@@ -244,7 +244,8 @@ void collect_camera_motion(Detections& all, TrackedVideo& tracked) {
 bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked) {
     constexpr double min_shake = 0.5;  // pixels: below, the rim itself errs
     constexpr double min_slope = 0.6;  // 1 if the camera shakes, 0 if the rim errs
-    if (tracked.shake < min_shake || !tracked.camera.poses.empty()) return false;
+    const bool known = !tracked.camera.poses.empty() && !tracked.camera.from_rim;
+    if (tracked.shake < min_shake || known || tracked.wandering > 0.0) return false;
     double product = 0.0, square = 0.0;
     for (std::size_t k = 1; k + 1 < all.size(); ++k)
         if (const auto bend = bend_at(all, k)) {

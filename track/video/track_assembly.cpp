@@ -116,6 +116,8 @@ void assemble_tracks(const Detections& all, const Links& links, std::int64_t fir
         ++species.number;
         ids[t] = id++;
     }
+    // Of two sizes that the survey saw, one may be that of a few wrong circles.
+    std::erase_if(tracked.species, [](const TrackedSpecies& s) { return s.number == 0; });
     tracked.number = static_cast<std::size_t>(id);
     for (const PossibleSwap& swap : links.swaps)
         if (ids[swap.first] >= 0 && ids[swap.second] >= 0)

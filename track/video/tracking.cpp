@@ -130,6 +130,7 @@ void finish_tracking(const TrackingSettings& settings, const VideoSurvey& survey
     tracked.height = survey.size.height;
     tracked.bright = survey.appearance.polarity > 0;
     tracked.mixed = survey.floor && survey.floor->folds();
+    tracked.opposed = tracked.mixed || survey.both_signs;
     tracked.tilt = survey.tilt;
     tracked.spacing = survey.appearance.spacing;
     if (tracked.spacing > 1.0) tracked.contact_ratio = tracked.spacing;

@@ -106,8 +106,9 @@ struct TrackedVideo {
     double rim_support = 0.0;
     std::vector<double> rim_offsets;  // distance of the rim from the path; −1 if not found
 
-    bool bright = true;  // discs on a darker floor
-    bool mixed = false;  // dark and bright discs
+    bool bright = true;    // discs on a darker floor
+    bool mixed = false;    // dark and bright discs, in folded frames
+    bool opposed = false;  // dark and bright discs: light shifts them in opposite directions
     std::vector<TrackedSpecies> species;
     double radius = 0.0;  // of the most frequent species: the unit of length
     double radius_error = 0.0;
@@ -123,11 +124,14 @@ struct TrackedVideo {
     double spacing = 1.0;  // contact distance / sum of visible radii, if these are parts of discs
     double contact_ratio = 0.0;   // distance of discs in contact / sum of radii
     bool contact_fitted = false;  // from the distribution of all distances
+    double contact_error = 0.02;  // of the ratio; an outline that no contact confirms errs by 2 %
 
     double complete_share = 0.0;               // of the frames: every disc was detected
     double whole = 0.0, complete_whole = 0.0;  // frames with all of the container; and all discs
     double position_error = 0.0;  // rms of `errors`: from the edges, or from overlaps if larger
-    double overlap_error = 0.0;   // from distances that hard discs cannot have
+    double overlap_error = 0.0;   // from distances that hard discs cannot have, or from flights
+    double bounce_error = 0.0;    // from bounces off the wall; 0: unknown
+    double error_factor = 1.5;    // `position_error` is right within this factor
     std::uint64_t filled = 0;     // interpolated positions
     std::uint64_t rejected = 0, crowded = 0;  // discs beyond the number, and frames with such discs
     bool uneven_times = false;  // `times` have unequal steps: the video's own, or by the phase

@@ -36,7 +36,8 @@ struct VideoSurvey {
     std::shared_ptr<const StaticBackground> background;  // set if the camera moves
     std::shared_ptr<const FloorPattern> floor;           // set if it is removed from all frames
     cv::Size size;                                       // of the frames
-    Vec2 shading{0.0, 0.0};  // gradient of a disc's brightness, of its contrast per radius
+    Vec2 shading{0.0, 0.0};   // gradient of a disc's brightness, of its contrast per radius
+    bool both_signs = false;  // some discs are darker and some brighter than the floor
 
     static constexpr double vote_radius = 12.0;  // of a disc, pixels: more only costs time
     /// Reduction of the frames in which votes for discs are counted.
@@ -84,6 +85,9 @@ bool remove_shake_of_rim(Detections& all, TrackedVideo& tracked);
 /// If the centre of the container's path wanders, as by hand, moves all positions so that the rim
 /// goes round one circle. True if it did.
 bool remove_wandering(Detections& all, TrackedVideo& tracked);
+/// If the centre of the container's path moves on a line at a constant rate, as with a camera that
+/// drifts, removes this from all positions. True if it did.
+bool remove_drift(Detections& all, TrackedVideo& tracked);
 
 // frame_times.cpp
 
@@ -112,12 +116,12 @@ RimCentres rim_centres(const Detections& all, const TrackedVideo& tracked);
 template <typename Shift>
 void remove_shifts(Detections& all, TrackedVideo& tracked, Shift&& shift) {
     Vec2 last{0.0, 0.0};
+    tracked.camera.poses.resize(all.size());
     for (std::size_t k = 0; k < all.size(); ++k) {
         FrameDetections& found = all[k];
         last = shift(k).value_or(last);
-        CameraPose pose;
-        pose.shift = last;
-        tracked.camera.poses.push_back(pose);
+        CameraPose& pose = tracked.camera.poses[k];
+        pose.shift = pose.shift + last;
         found.rim.centre = found.rim.centre - last;
         for (DetectedParticle& p : found.particles) p.centre = p.centre - last;
     }
@@ -146,10 +150,29 @@ void for_each_linked(const Links& links, Use&& use) {
             if (const int t = links.track[k][d]; t >= 0) use(k, static_cast<std::size_t>(t), d);
 }
 
-// track_assembly.cpp, wall_fit.cpp, track_quality.cpp, tracking_warnings.cpp
+// track_assembly.cpp, wall_bounces.cpp, wall_fit.cpp, track_quality.cpp, tracking_warnings.cpp
 /// Writes the tracks, with short gaps filled.
 void assemble_tracks(const Detections& all, const Links& links, std::int64_t first_frame,
                      TrackedVideo& tracked);
+
+/// Positions of one disc in the frames that show it.
+struct SeenDisc {
+    std::vector<std::size_t> frames;
+    std::vector<Vec2> positions;
+    double radius = 0.0;
+    std::int64_t id = 0;
+};
+
+std::vector<SeenDisc> seen_discs(const TrackedVideo& tracked);
+
+/// A disc bounced off the wall, or off another disc, between `frame` and the next one.
+struct Bounce {
+    std::size_t frame;
+    std::int64_t disc;
+    double radius;
+    Vec2 from_centre;  // position of the disc's centre relative to the container's
+};
+std::vector<Bounce> find_bounces(const TrackedVideo& tracked);
 
 /// Finds the wall from the discs that it stops: removes their shift by light from one side from all
 /// positions, and moves the path of a rim that is displaced.

@@ -141,9 +141,9 @@ void warn_about_motion(TrackedVideo& tracked) {
              periods);
     if (per_period < min_per_period)
         warn(tracked,
-             "there are only {:.1f} frames per period: discs may be confused, {}and their spins "
+             "there are only {:.1f} frames per period: discs may be confused, and their spins "
              "cannot be measured; use 60 or more (the paper has 511)",
-             per_period, tracked.contact_fitted ? "" : "positions may err more than claimed, ");
+             per_period);
     if (tracked.wandering > 0.0)
         warn(tracked,
              "the centre of the container's path wanders by {:.1f} pixels, as if a hand moved it; "
@@ -186,10 +186,11 @@ void warn_about_wall(TrackedVideo& tracked) {
              "{:.2f}: the rim is the outer edge of the wall, and the smaller radius is used",
              tracked.rim_radius, tracked.reach);
     if (-inside > limit)
-        warn(tracked,
-             "discs come {:.2f} pixels farther out than the visible rim, which has a radius of "
-             "{:.2f} pixels; the radius at which discs are stopped is used",
-             -inside, tracked.rim_radius);
+        warn(
+            tracked,
+            "discs seem to come {:.2f} pixels farther out than the visible rim, which has a radius "
+            "of {:.2f} pixels: positions relative to the container err by as much; the rim is used",
+            -inside, tracked.rim_radius);
     if (length(tracked.rim_shift) > 0.0)
         warn(tracked,
              "the circle at which discs are stopped is {:.2f} pixels away from the visible rim, as "
@@ -209,6 +210,20 @@ void warn_about_wall(TrackedVideo& tracked) {
             "a polygon of few sides; positions relative to the container, and its radius, may be "
             "wrong by as much",
             tracked.path.residual);
+}
+
+void warn_about_errors(TrackedVideo& tracked) {
+    constexpr double max_factor = 1.5;
+    if (tracked.contact_fitted && tracked.error_factor > max_factor)
+        warn(tracked,
+             "the claimed error of a position, {:.2f} pixels, is right within a factor of {:.1f} "
+             "only: few discs touch each other; a longer video determines it better",
+             tracked.position_error, tracked.error_factor);
+    if (tracked.contact_ratio == 0.0)
+        warn(tracked,
+             "discs touch each other too seldom to confirm their radius: the visible outline is "
+             "used, which may err by {:.1f} % of the radius",
+             100.0 * tracked.contact_error);
 }
 
 void warn_about_discs(double outside, TrackedVideo& tracked) {
@@ -232,7 +247,7 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
         warn(tracked,
              "some IDs are uncertain: discs that were hidden or fast may have swapped theirs: {}",
              first_of(swaps));
-    if (tracked.mixed)
+    if (tracked.opposed)
         warn(tracked,
              "dark and bright discs are tracked together: light from one side shifts them in "
              "opposite directions, so discs of one brightness give more accurate positions");
@@ -337,6 +352,7 @@ void add_warnings(TrackedVideo& tracked) {
     warn_about_fields(tracked);
     warn_about_motion(tracked);
     warn_about_wall(tracked);
+    warn_about_errors(tracked);
     const double outside = share_outside(tracked);
     if (outside > complete_rim)
         warn(tracked,

@@ -161,11 +161,13 @@ bool correct_radius_by_contacts(const std::vector<AppearanceTemplate::Example>& 
 
 /// The gradient of the brightness over the inner part of a disc, of the contrast per radius. Its
 /// sign is arbitrary: dark and bright discs differ. Texture, which has any direction, is removed.
+/// Sets `both_signs` if a tenth of the discs is darker than the floor and others are brighter.
 Vec2 shading_gradient(const std::vector<AppearanceTemplate::Example>& examples,
-                      const ParticleAppearance& appearance) {
+                      const ParticleAppearance& appearance, bool& both_signs) {
+    constexpr double clear = 0.3, other_share = 0.1;          // of the contrast; of the discs
     constexpr double inner = 0.7, floor = 1.15, outer = 1.3;  // radii: without the edge
     double across = 0.0, diagonal = 0.0, number = 0.0;
-    std::vector<double> inside, outside;
+    std::vector<double> inside, outside, levels;
     for (const AppearanceTemplate::Example& example : examples)
         for (const DetectedParticle& p : example.particles) {
             if (!p.sure) continue;
@@ -175,7 +177,7 @@ Vec2 shading_gradient(const std::vector<AppearanceTemplate::Example>& examples,
                       left = std::max(0, int(p.centre.x - reach) + 1),
                       right = std::min(example.sharp.cols - 1, int(p.centre.x + reach));
             Vec2 sum{0.0, 0.0};
-            double weight = 0.0;
+            double weight = 0.0, level_sum = 0.0, pixels = 0.0;
             for (int row = top; row <= bottom; ++row)
                 for (int column = left; column <= right; ++column) {
                     const Vec2 d = (1.0 / radius) * (Vec2{double(column), double(row)} - p.centre);
@@ -184,15 +186,22 @@ Vec2 shading_gradient(const std::vector<AppearanceTemplate::Example>& examples,
                         outside.push_back(level);
                     if (dot(d, d) > inner * inner) continue;
                     inside.push_back(level);
+                    level_sum += level;
+                    pixels += 1.0;
                     sum = sum + level * d;
                     weight += 0.5 * dot(d, d);
                 }
             const Vec2 g = (1.0 / std::max(weight, 1e-9)) * sum;
+            levels.push_back(level_sum / std::max(pixels, 1.0));
             across += g.x * g.x - g.y * g.y;
             diagonal += 2.0 * g.x * g.y;
             number += 1.0;
         }
-    const double contrast = median(inside) - median(outside);
+    const double floor_level = median(outside), contrast = median(inside) - floor_level;
+    const auto others = std::count_if(levels.begin(), levels.end(), [&](double level) {
+        return (level - floor_level) / contrast < -clear;
+    });
+    both_signs = double(others) > other_share * number;
     if (number == 0.0 || contrast == 0.0) return {0.0, 0.0};
     const double size = std::sqrt(std::hypot(across, diagonal) / number) / contrast,
                  angle = 0.5 * std::atan2(diagonal, across);
@@ -225,7 +234,8 @@ void learn_appearance(const std::vector<cv::Mat>& images, const TrackingSettings
     std::vector<AppearanceTemplate::Example> examples = find_examples(images, settings, survey);
     if (correct_radius_by_contacts(examples, survey.appearance))
         examples = find_examples(images, settings, survey);
-    if (!survey.appearance.shading) survey.shading = shading_gradient(examples, survey.appearance);
+    if (!survey.appearance.shading)
+        survey.shading = shading_gradient(examples, survey.appearance, survey.both_signs);
     if (auto learned =
             AppearanceTemplate::learned(examples, survey.appearance, thread_count(settings))) {
         survey.appearance.appearance_template =

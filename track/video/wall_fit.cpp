@@ -40,7 +40,7 @@ struct WallRow {
 struct WallFit {
     cv::Vec4d value{};  // reach, shift and excess
     cv::Matx44d covariance;
-    bool displaced = false;  // from the rim; else the shift and the excess are zero
+    bool displaced = false;  // from the rim, and not only by a shift that light explains
 };
 
 /// Where the wall is, and how the gaps to it are distributed; in radii.
@@ -48,13 +48,16 @@ struct WallModel {
     cv::Vec4d value{};
     double error = 0.1, decay = 0.5, share = 0.9;
     static constexpr double inner = 1.5, outer = 0.5;  // range of gaps; a second layer is beyond
+    static constexpr double wrong = 0.02;  // share of the positions: no disc is in the wall
     double gap(const WallRow& row) const { return row.factors.dot(value) - row.distance; }
     /// `moved`: of the wall outwards.
     double log_density(const WallRow& row, double moved = 0.0) const {
         const double here = gap(row) + moved, widest = row.widest + here;
         const double near = normal_and_exponential(here, error, decay) /
                             (1.0 - std::exp(-std::max(widest, 0.1) / decay));
-        return std::log(share * near + (1.0 - share) / (inner + outer) + 1e-12);
+        const double far = 0.5 * std::erfc(-here / (std::sqrt(2.0) * error)) / inner;
+        return std::log((1.0 - wrong) * (share * near + (1.0 - share) * far) +
+                        wrong / (inner + outer));
     }
     bool allowed(double least_error) const {
         return error >= least_error && error <= 0.2 && decay >= 0.1 && decay <= 3.0 &&
@@ -154,18 +157,22 @@ std::size_t count_visits(const std::vector<WallRow>& rows, std::size_t every) {
     return visits;
 }
 
+/// Twice by how much a displaced wall is more likely, from independent visits.
+double gain_of_displacement(const std::vector<WallRow>& rows, std::size_t every,
+                            const WallModel& displaced, const WallModel& concentric) {
+    const double gain = likelihood_of_wall(rows, displaced) - likelihood_of_wall(rows, concentric);
+    return 2.0 * gain * double(count_visits(rows, every)) / double(rows.size());
+}
+
 /// Few discs may visit one side more often by chance, and then agree with a wall that is far from
 /// the rim. The rim is seen in thousands of pixels: a displacement needs more evidence the larger
 /// it is.
-bool is_displaced(const std::vector<WallRow>& rows, std::size_t every, const WallModel& displaced,
-                  const WallModel& concentric) {
+bool is_displaced(double gain, const WallModel& displaced) {
     constexpr double usual = 0.15;    // radii, of a coordinate: largest shift by light, tilted rim
-    constexpr double evidence = 4.0;  // of twice the gain in likelihood, beyond the two unknowns
-    const double gain = likelihood_of_wall(rows, displaced) - likelihood_of_wall(rows, concentric);
-    const double independent = double(count_visits(rows, every)) / double(rows.size());
+    constexpr double evidence = 4.0;  // of the gain, beyond the two unknowns
     const double x = displaced.value[1] / usual;
     const double y = displaced.value[2] / usual;
-    return 2.0 * gain * independent - x * x - y * y > evidence;
+    return gain - x * x - y * y > evidence;
 }
 
 /// `rows` in pixels, in the order of the frames.
@@ -183,10 +190,7 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
     std::size_t every = 1;
     for (const double least_error : least_errors) {
         model.error = std::max(model.error, least_error);
-        const auto near = [&](const WallRow& row) {
-            const double gap = model.gap(row);
-            return gap < WallModel::inner && gap > -WallModel::outer;
-        };
+        const auto near = [&](const WallRow& row) { return model.gap(row) < WallModel::inner; };
         every = 1 + std::size_t(std::count_if(rows.begin(), rows.end(), near)) / enough;
         used.clear();
         for (WallRow row : rows) {
@@ -198,8 +202,12 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
         make_likely(used, least_error, true, model);
     }
     const WallModel concentric = concentric_wall(used, least_errors.back(), model);
-    const bool displaced = is_displaced(used, every, model, concentric);
-    const WallModel& chosen = displaced ? model : concentric;
+    // One unknown gains 1 on average by chance. What gains more may be a shift by light, which the
+    // discs' appearance bounds.
+    constexpr double by_chance = 1.0;
+    const double gain = gain_of_displacement(used, every, model, concentric);
+    const bool displaced = is_displaced(gain, model);
+    const WallModel& chosen = gain > by_chance ? model : concentric;
     const auto variance = covariance_of(used, chosen, every);
     if (!variance) return {};
     return WallFit{.value = radius * chosen.value,
@@ -211,10 +219,10 @@ std::optional<WallFit> fit_wall(std::vector<WallRow> rows, double radius, std::s
 /// grows steeply until the shaded edge is as dark as the floor (0.16 and 0.006 radii at gradients
 /// of 0.92 and 0.45; no larger one is known). The direction is unknown for a template, which
 /// defines no centre, and for discs of both brightnesses, whose shifts are opposite.
-cv::Matx22d expected_shift(const VideoSurvey& survey, bool mixed) {
+cv::Matx22d expected_shift(const VideoSurvey& survey, bool opposed) {
     constexpr double steepness = 0.2, largest = 0.16;  // radii
-    const double any = mixed ? 0.03 : 0.1;             // radii: rms of a coordinate
-    if (mixed || survey.appearance.shading) return any * any * cv::Matx22d::eye();
+    const double any = opposed ? 0.03 : 0.1;           // radii: rms of a coordinate
+    if (opposed || survey.appearance.shading) return any * any * cv::Matx22d::eye();
     Vec2 along = steepness * std::pow(length(survey.shading), 3.0) * survey.shading;
     if (length(along) > largest) along = (largest / length(along)) * along;
     return cv::Vec2d(along.x, along.y) * cv::Vec2d(along.x, along.y).t();
@@ -223,16 +231,16 @@ cv::Matx22d expected_shift(const VideoSurvey& survey, bool mixed) {
 /// Removes the shift by light from all positions. Returns what is left of the wall's displacement.
 Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit>& found,
                           TrackedVideo& tracked) {
-    cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey, tracked.mixed);
+    cv::Matx22d left = tracked.radius * tracked.radius * expected_shift(survey, tracked.opposed);
     cv::Vec2d shift, displaced = found ? cv::Vec2d(found->value[1], found->value[2]) : shift;
     // A tilted rim is displaced, too. Dark and bright discs are shifted in opposite directions.
-    if (found && !tracked.lens.tilted() && !tracked.mixed) {
+    if (found && !tracked.lens.tilted() && !tracked.opposed) {
         const cv::Matx22d sum = left + found->covariance.get_minor<2, 2>(1, 1);
-        // If it is much larger than both allow, the rim is displaced, and not the discs. A wall
-        // that is not displaced shows that light hardly shifts the discs.
-        const cv::Vec2d part = left * displaced;
-        if (!found->displaced ||
-            std::abs(part.dot(displaced)) < stands_out * std::sqrt(part.dot(sum * part))) {
+        // If it is much larger than both allow, the rim is displaced, and not the discs: then it
+        // shows nothing about the light. A wall that is not displaced shows that light hardly
+        // shifts the discs.
+        const double errors = displaced.dot(sum.inv() * displaced);
+        if (errors < stands_out * stands_out) {
             const cv::Matx22d gain = left * sum.inv();
             shift = gain * displaced;
             left -= gain * left;
@@ -246,32 +254,44 @@ Vec2 remove_shading_shift(const VideoSurvey& survey, const std::optional<WallFit
     return {displaced[0] - shift[0], displaced[1] - shift[1]};
 }
 
+/// All positions, and those at which discs bounce between two frames.
+std::vector<WallRow> wall_rows(const TrackedVideo& tracked) {
+    std::vector<WallRow> rows;
+    const auto add = [&](std::size_t k, std::int64_t disc, double radius, const Vec2& d) {
+        const double distance = length(d), size = radius / tracked.radius;
+        if (!(distance > 0.0)) return;
+        const Vec2 n = (1.0 / distance) * d;
+        const Vec2 out = tracked.container(k) - tracked.path.centre;
+        const double nearer = tracked.lens.tilted() ? -dot(out, n) / tracked.path.amplitude : 0.0;
+        rows.push_back({{1.0, size * n.x, size * n.y, nearer}, distance + radius, k, disc});
+    };
+    for (std::size_t k = 0; k < tracked.tracks.frames.size(); ++k) {
+        const TrackFrame& f = tracked.tracks.frames[k];
+        for (std::size_t i = 0; i < f.id.size(); ++i)
+            if (tracked.seen[k][i])
+                add(k, f.id[i], f.radius[i], f.position[i] - tracked.container(k));
+    }
+    for (const Bounce& bounce : find_bounces(tracked))
+        add(bounce.frame, bounce.disc, bounce.radius, bounce.from_centre);
+    std::stable_sort(rows.begin(), rows.end(),
+                     [](const WallRow& a, const WallRow& b) { return a.frame < b.frame; });
+    return rows;
+}
+
 }  // namespace
 
 void find_wall(const VideoSurvey& survey, TrackedVideo& tracked) {
     constexpr double least_shift = 0.05;  // radii: positions err by about as much
-    std::vector<WallRow> rows;
-    for (std::size_t k = 0; k < tracked.tracks.frames.size(); ++k) {
-        const TrackFrame& f = tracked.tracks.frames[k];
-        const Vec2 c = tracked.container(k);
-        const Vec2 out = (1.0 / tracked.path.amplitude) * (c - tracked.path.centre);
-        for (std::size_t i = 0; i < f.id.size(); ++i) {
-            const Vec2 d = f.position[i] - c;
-            const double distance = length(d), size = f.radius[i] / tracked.radius;
-            if (!tracked.seen[k][i] || !(distance > 0.0)) continue;
-            const Vec2 n = (1.0 / distance) * d;
-            const double nearer = tracked.lens.tilted() ? -dot(out, n) : 0.0;
-            rows.push_back(
-                {{1.0, size * n.x, size * n.y, nearer}, distance + f.radius[i], k, f.id[i]});
-        }
-    }
-    const auto found = fit_wall(std::move(rows), tracked.spacing * tracked.radius, tracked.number);
+    const auto found =
+        fit_wall(wall_rows(tracked), tracked.spacing * tracked.radius, tracked.number);
     const Vec2 residual = remove_shading_shift(survey, found, tracked);
     if (!found) return;
     tracked.contact_at_wall = 1.0 + (tracked.rim_radius - found->value[0]) / tracked.radius;
     const double error = std::sqrt(std::max(found->covariance(1, 1), found->covariance(2, 2))),
                  least = tracked.lens.tilted() ? 0.0 : least_shift * tracked.radius;
-    if (tracked.mixed || length(residual) < std::max(stands_out * error, least)) return;
+    if (!found->displaced || tracked.mixed ||
+        length(residual) < std::max(stands_out * error, least))
+        return;
     tracked.rim_shift = residual;
     tracked.path.centre = tracked.path.centre + residual;
     tracked.path.centre_error = std::hypot(tracked.path.centre_error, error);

@@ -3,6 +3,8 @@
 // Over about one turn the centre hardly moves, so a circle through the centres of the rim within
 // that time gives it, and the phase: the angle of the rim about it. Discs move relative to the
 // container, so everything is moved to a path about a fixed centre, which has this phase.
+//
+// If the motion is even, and a camera drifts that sees nothing at rest, the centre moves on a line.
 
 #include <algorithm>
 #include <cmath>
@@ -94,6 +96,44 @@ bool remove_wandering(Detections& all, TrackedVideo& tracked) {
     }
     tracked.wandering = std::sqrt(0.5 * square);
     remove_shifts(all, tracked, [&](std::size_t k) { return shifts[k]; });
+    return true;
+}
+
+bool remove_drift(Detections& all, TrackedVideo& tracked) {
+    constexpr int passes = 8;            // the drift and the circle are nearly independent
+    constexpr double least_drift = 1.0;  // pixels in the whole video
+    constexpr double least_gain = 0.7;   // of the scatter about the path
+    if (!tracked.camera.poses.empty()) return false;
+    const RimCentres rims = rim_centres(all, tracked);
+    if (rims.centres.empty()) return false;
+    double middle = 0.0, square = 0.0;
+    for (const double time : rims.times) middle += time / double(rims.times.size());
+    for (const double time : rims.times) square += (time - middle) * (time - middle);
+    if (!(square > 0.0)) return false;
+    Vec2 rate{0.0, 0.0};
+    double before = 0.0, after = 0.0;
+    for (int pass = 0; pass < passes; ++pass) {
+        std::vector<Vec2> centres;
+        for (std::size_t n = 0; n < rims.centres.size(); ++n)
+            centres.push_back(rims.centres[n] - (rims.times[n] - middle) * rate);
+        const auto path = fit_container_path(centres, rims.times);
+        if (!path) return false;
+        Vec2 slope{0.0, 0.0};
+        std::vector<double> off;
+        for (std::size_t n = 0; n < centres.size(); ++n) {
+            const Vec2 residual = centres[n] - path->at(rims.times[n]);
+            slope = slope + ((rims.times[n] - middle) / square) * residual;
+            off.push_back(length(residual));
+        }
+        after = median(off);
+        if (pass == 0) before = after;
+        rate = rate + slope;
+    }
+    const Vec2 drift = (rims.times.back() - rims.times.front()) * rate;
+    if (length(drift) < least_drift || after > least_gain * before) return false;
+    remove_shifts(all, tracked, [&](std::size_t k) -> std::optional<Vec2> {
+        return (tracked.times[k] - middle) * rate;
+    });
     return true;
 }
 

@@ -61,6 +61,16 @@ TEST(WallBounces, GiveTheContainerRadiusOfFewDiscs) {
     }
 }
 
+// The rim is seen in thousands of pixels, and no disc comes through it.
+TEST(WallBounces, BeyondTheRimDoNotMoveIt) {
+    TrackedVideo tracked = bouncing_disc(1, 0.15);
+    tracked.rim_radius = 127.0;
+    measure_quality(Detections(tracked.times.size()), tracked);
+    EXPECT_GT(tracked.reach, 129.0);
+    set_radii(tracked);
+    EXPECT_EQ(tracked.container_radius, tracked.rim_radius);
+}
+
 TEST(WallBounces, ScatterByTheErrorOfAPosition) {
     // Bounces that agree lie within 0.65 pixels, so larger errors are claimed too small.
     for (const double noise : {0.08, 0.15}) {
@@ -70,6 +80,50 @@ TEST(WallBounces, ScatterByTheErrorOfAPosition) {
         EXPECT_GT(tracked.position_error, 0.7 * noise);
         EXPECT_LT(tracked.position_error, 2.0 * noise);  // flights are extrapolated to the wall
     }
+}
+
+/// Three discs that fly freely, and are hit once in about five frames.
+TrackedVideo flying_discs(std::uint64_t seed, double noise) {
+    constexpr double radius = 20.0, container = 170.0;
+    TrackedVideo tracked;
+    tracked.path = {.centre = {320.0, 240.0}, .amplitude = 38.0, .omega = 2.0 * pi / 15.0};
+    tracked.radius = radius;
+    tracked.rim_radius = container;
+    tracked.number = 3;
+    Random random(seed);
+    std::vector<Vec2> p(3), v(3);
+    for (int k = 0; k < 60; ++k) {
+        tracked.times.push_back(k);
+        TrackFrame f;
+        for (std::size_t i = 0; i < 3; ++i) {
+            p[i] = p[i] + v[i];
+            if (k == 0 || length(p[i]) > container - radius || random.uniform() < 0.1) {
+                v[i] = 40.0 * unit_circle(random.uniform());
+                if (length(p[i]) > 0.5 * container) v[i] = (-40.0 / length(p[i])) * p[i];
+            }
+            f.id.push_back(std::int64_t(i));
+            f.radius.push_back(radius);
+            f.position.push_back(tracked.path.centre + p[i] +
+                                 noise * Vec2{deviate(random), deviate(random)});
+        }
+        tracked.tracks.frames.push_back(f);
+        tracked.errors.emplace_back(3, 0.1);
+        tracked.seen.emplace_back(3, 1);
+    }
+    return tracked;
+}
+
+// Edges claim 0.1 pixels. Without contacts, only flights show the errors of fast discs.
+TEST(FreeFlights, ShowErrorsThatEdgesDoNot) {
+    for (const double noise : {0.5, 1.0})
+        for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+            TrackedVideo tracked = flying_discs(seed, noise);
+            find_contacts(tracked);
+            measure_quality(Detections(tracked.times.size()), tracked);
+            EXPECT_FALSE(tracked.contact_fitted);
+            EXPECT_GT(tracked.position_error, 0.7 * noise) << seed;
+            EXPECT_LT(tracked.position_error, 1.5 * noise) << seed;
+        }
 }
 
 /// Two periods of a phone's video: sixteen discs near the wall, displaced by `shift`.
@@ -143,6 +197,29 @@ TEST(WallFit, LeavesTheRimWhereItIsForFewBounces) {
     }
 }
 
+// Of two sizes that a few frames seemed to show, one has no disc in the end.
+TEST(TrackAssembly, ForgetsASizeWithoutDiscs) {
+    constexpr std::size_t frames = 12;
+    Detections all(frames);
+    Links links;
+    links.species = {1};
+    TrackedVideo tracked;
+    tracked.path = {.centre = {100.0, 100.0}, .amplitude = 20.0, .omega = 2.0 * pi / 60.0};
+    tracked.species = {{17.0, 0.1, 0}, {19.0, 0.1, 1}};
+    for (std::size_t k = 0; k < frames; ++k) {
+        tracked.times.push_back(double(k));
+        DetectedParticle disc;
+        disc.centre = {100.0, 100.0};
+        disc.species = 1;
+        all[k].particles = {disc};
+        links.track.push_back({0});
+    }
+    assemble_tracks(all, links, 0, tracked);
+    ASSERT_EQ(tracked.species.size(), 1u);
+    EXPECT_EQ(tracked.species[0].radius, 19.0);
+    EXPECT_EQ(tracked.species[0].number, 1u);
+}
+
 double exponential(Random& random, double mean) { return -mean * std::log(1.0 - random.uniform()); }
 
 TEST(ContactDistance, IsFoundFromNoisyDistances) {
@@ -173,6 +250,27 @@ TEST(ContactDistance, IgnoresWrongPositionsAndBelievesTheWall) {
                 0.006);  // half of it: few are in contact
     EXPECT_FALSE(contact_of_discs(far, 1.0));
     EXPECT_NEAR(contact_of_discs(far, 1.17).value().at, 1.16, 0.02);  // two bins
+}
+
+// Discs that are seldom in contact. Two that fly together for long are one encounter.
+TEST(ContactDistance, OfFewEncountersIsFoundWithItsError) {
+    constexpr int seeds = 20;
+    double square = 0.0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        Random random{std::uint64_t(seed)};
+        std::vector<std::vector<double>> encounters{std::vector<double>(100, 1.045)};
+        for (int n = 0; n < 40; ++n)
+            encounters.push_back({1.0153 + 0.08 * random.uniform() + 0.004 * deviate(random)});
+        const auto found = contact_of_few(encounters, 0.004);
+        ASSERT_TRUE(found) << seed;
+        EXPECT_LT(found->error, 0.008) << seed;
+        square += std::pow((found->at - 1.0153) / found->error, 2) / seeds;
+        encounters.resize(6);
+        EXPECT_FALSE(contact_of_few(encounters, 0.004)) << seed;
+    }
+    // The errors are those of the distances, within a factor of two.
+    EXPECT_GT(square, 0.25);
+    EXPECT_LT(square, 4.0);
 }
 
 // Pairs in contact all over a container, seen through a lens.
