@@ -81,7 +81,7 @@ class Recording {
 py::dict read_tracks(const std::string& file) {
     std::vector<std::int64_t> frame, particle;
     std::vector<double> x, y, radius, time;
-    for (const TrackFrame& at : read_trackpy_csv(file).frames)
+    for (const TrackFrame& at : read_track_table(file).frames)
         for (std::size_t i = 0; i < at.id.size(); ++i) {
             frame.push_back(at.number);
             particle.push_back(at.id[i]);

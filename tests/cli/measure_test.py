@@ -247,6 +247,50 @@ class MeasureTest(InFolder):
             (3, 5 * DISCS + 4, 1, 0),
         )
 
+    def test_rotation_without_the_swaps_that_track_calls_possible(self):
+        # Discs 3 and 4 swap their IDs in frame 6000. In tracks of `swirl track`, which have radii,
+        # nothing is repaired.
+        table = {k: dict(f) for k, f in self.answer()[2].items()}
+
+        def rotation(possible):
+            with open(self.path("tracks.csv"), "w", encoding="utf-8") as opened:
+                opened.write("frame,particle,x,y,seen,radius\n")
+                for k, places in table.items():
+                    for disc, (x, y) in places.items():
+                        name = {3: 4, 4: 3}.get(disc, disc) if k >= 6000 else disc
+                        px, py = CENTRE[0] + SCALE * x, CENTRE[1] - SCALE * y
+                        opened.write(f"{k},{name},{px!r},{py!r},1,{SCALE}\n")
+            camera = {
+                "camera-fps": FPS,
+                "scale": SCALE,
+                "omega": OMEGA,
+                "centre": CENTRE,
+                "phase": 0.0,
+                "amplitude": AMPLITUDE,
+                "container-radius": RADIUS,
+                "clockwise": False,
+            }
+            quality = {"possible_swaps": possible}
+            with open(self.path("tracks.camera.json"), "w", encoding="utf-8") as opened:
+                json.dump({"format": 1, "camera": camera, "quality": quality}, opened)
+            done = swirl("measure", self.path("tracks.csv"), "--json", self.path("found.json"))
+            self.assertEqual(done.returncode, 0, done.stderr)
+            return read_json(self.path("found.json"))["rotation"], done.stdout
+
+        swap = {"frame": 6000, "linked_from": 5999, "discs": [3, 4], "chance": 0.4}
+        plain, said = rotation([])
+        self.assertNotIn("without_swaps", plain)
+        self.assertNotIn("possible swap", said)
+        found, said = rotation([swap])
+        self.assertIn("without 1 possible swap of IDs", said)
+        # The swap adds a false velocity to two discs, and leaving it out gives the exact rate.
+        exact = self.answer()[0]["rotation"]["mean_by_time"]["mean"]
+        with_swap = found["mean_by_time"]["mean"]
+        without = found["without_swaps"]["mean_by_time"]["mean"]
+        self.assertEqual(with_swap, plain["mean_by_time"]["mean"])
+        self.assertNotEqual(without, with_swap)
+        self.assertLess(abs(without - exact), 0.01)
+
     def test_discs_may_appear_and_disappear(self):
         table = {k: dict(f) for k, f in self.answer()[2].items()}
         for disc, (begin, end) in enumerate(((2000, 2040), (8000, 8100), (12000, 12008))):

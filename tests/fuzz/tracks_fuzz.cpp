@@ -6,6 +6,6 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     using namespace swirl;
     const FuzzedFile file(data, size);
-    read_or_reject<FileError>([&] { read_trackpy_csv(file.path()); });
+    read_or_reject<FileError>([&] { read_track_table(file.path()); });
     return 0;
 }

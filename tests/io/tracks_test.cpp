@@ -15,7 +15,7 @@ namespace {
 Tracks tracks_in(const std::string& text) {
     const Scratch scratch;
     write_quickly(scratch / "tracks.csv", text);
-    return read_trackpy_csv(scratch / "tracks.csv");
+    return read_track_table(scratch / "tracks.csv");
 }
 Tracks repaired(const std::string& text, double radius) {
     Tracks tracks = tracks_in(text);
@@ -72,6 +72,67 @@ TEST(TrackpyTable, AcceptsSpreadsheetExports) {
     EXPECT_EQ(tracks.frames[0].position.at(0).y, 2.5);
 }
 
+/// One table as each tracker writes it: frames 0 and 1 of the particles 3 and 7, of which 7 has no
+/// position in frame 1.
+struct Dialect {
+    const char* name;
+    std::string frame, particle, x, y;  // columns
+    std::string units{};                // rows below the header
+};
+std::string table_in(const Dialect& dialect, char separator, const std::string& missing,
+                     bool y_up) {
+    const auto row = [&](const std::vector<std::string>& cells) {
+        std::string line = cells.front();
+        for (std::size_t k = 1; k < cells.size(); ++k) line += separator + cells[k];
+        return line + "\n";
+    };
+    const std::string sign = y_up ? "-" : "";
+    return row({dialect.x, "spare", dialect.frame, dialect.particle, dialect.y}) + dialect.units +
+           row({"1.5", "a", "0", "3", sign + "4"}) + row({"2.5", "b", "0", "7", sign + "5"}) +
+           row({"3.5", "c", "1", "3", sign + "6"}) + row({missing, "d", "1", "7", sign + "7"}) +
+           row({"9.5", "e", "1", missing, sign + "8"});
+}
+
+TEST(TrackTable, AnyTrackersColumnsSeparatorsGapsAndDirectionsAreRead) {
+    const Dialect dialects[] = {
+        {"trackpy", "frame", "particle", "x", "y"},
+        {"TrackMate", "FRAME", "TRACK_ID", "POSITION_X", "POSITION_Y",
+         "X\tz\tFrame\tTrack ID\tY\n(mm)\tz\t \t \t(mm)\n"},
+        {"MOSAIC", "Frame", "Trajectory", "x", "y"},
+        {"Manual Tracking", "Slice n°", "Track n°", "X", "Y"},
+        {"named", "Bild", "Spur", "Ort", "Hoehe"},
+    };
+    for (const Dialect& dialect : dialects)
+        for (const char separator : {'\t', ',', ';'})
+            for (const std::string missing : {"", "nan", "NA"})
+                for (const bool y_up : {false, true}) {
+                    Dialect written = dialect;
+                    std::replace(written.units.begin(), written.units.end(), '\t', separator);
+                    TableLayout layout{.y_up = y_up};
+                    if (dialect.name == std::string("named"))
+                        layout = {.frame = "bild",
+                                  .particle = "Spur",
+                                  .x = "Ort",
+                                  .y = "Hoehe",
+                                  .y_up = y_up};
+                    const Scratch scratch;
+                    write_quickly(scratch / "a.csv", table_in(written, separator, missing, y_up));
+                    const Tracks tracks = read_track_table(scratch / "a.csv", layout);
+                    const std::string about =
+                        fmt::format("{} '{}' '{}' {}", dialect.name, separator, missing, y_up);
+                    ASSERT_EQ(tracks.frames.size(), 2u) << about;
+                    EXPECT_EQ(tracks.frames[0].id, (std::vector<std::int64_t>{3, 7})) << about;
+                    EXPECT_EQ(tracks.frames[1].id, (std::vector<std::int64_t>{3})) << about;
+                    // Both directions of y are the same place in the dish.
+                    TrackScale scale;
+                    scale.pixels_per_radius = 2.0;
+                    scale.container_radius = 10.0;
+                    const Snapshot frame = series_of(tracks, scale).frame(1);
+                    EXPECT_EQ(frame.position(0).x, 1.75) << about;
+                    EXPECT_EQ(frame.position(0).y, -3.0) << about;
+                }
+}
+
 TEST(TrackpyTable, ErrorsNameTheLine) {
     const auto rejected = [](const std::string& text) { return error_message(tracks_in, text); };
     const std::string head = "frame,particle,x,y\n";
@@ -88,10 +149,10 @@ TEST(TrackpyTable, ErrorsNameTheLine) {
                   std::string::npos);
     // Columns that are not read may be without a name, as spreadsheets write them.
     EXPECT_EQ(tracks_in("frame,particle,x,y,,\n0,0,1,2,,\n").frames.size(), 1u);
-    EXPECT_NE(rejected(head + "0,0,1,2\n0,1,nan,2\n")
-                  .find("line 3: column 'x' is 'nan', but it must be a finite number"),
+    EXPECT_NE(rejected(head + "0,0,1,2\n0,1,inf,2\n")
+                  .find("line 3: column 'x' is 'inf', but it must be a finite number"),
               std::string::npos);
-    EXPECT_NE(rejected(head + "0,0,,2\n").find("line 2: column 'x' is ''"), std::string::npos);
+    EXPECT_NE(rejected(head + "0,0,,2\n").find("holds no positions"), std::string::npos);
     EXPECT_NE(rejected(head + "0,0,1e999,2\n").find("line 2"), std::string::npos);
     EXPECT_NE(rejected(head + "0.5,0,1,2\n")
                   .find("column 'frame' is '0.5', but it must be a whole number"),
@@ -230,6 +291,26 @@ TEST(RepairedTracks, GivenIdsAreKeptIfMovesAreLarge) {
     const Tracks tracks = repaired(text, 10.0);
     EXPECT_EQ(tracks.frames.size(), 40u);
     EXPECT_TRUE(series_of(tracks, {}).same_discs());
+}
+
+TEST(UncertainLinks, TheDiscHasAnotherIdAfterALinkAndNoPositionInBetween) {
+    Tracks tracks = tracks_in(
+        "frame,particle,x,y,seen,radius\n"
+        "0,3,0,0,1,5\n0,7,9,0,1,6\n"
+        "1,3,1,0,1,5\n1,7,9,1,1,6\n"
+        "2,3,2,0,0,5\n2,7,9,2,1,6\n"
+        "3,3,3,0,1,5\n3,7,9,3,1,6\n"
+        "4,3,4,0,1,5\n4,7,9,4,1,6\n");
+    // Links of one disc may be given in any order.
+    cut(tracks, {{.id = 3, .from = 1, .to = 3}, {.id = 3, .from = 3, .to = 4}});
+    const std::vector<std::vector<std::int64_t>> ids{{3, 7}, {3, 7}, {7}, {7, 9}, {7, 8}};
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        ASSERT_EQ(tracks.frames[k].id, ids[k]) << k;
+        // The values of a disc stay together.
+        for (std::size_t i = 0; i < ids[k].size(); ++i)
+            EXPECT_EQ(tracks.frames[k].radius[i], tracks.frames[k].position[i].x == 9.0 ? 6.0 : 5.0)
+                << k;
+    }
 }
 
 TEST(TrackScale, ConvertsPixelsToRadiiWithYUp) {

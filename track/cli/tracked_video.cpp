@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/output.hpp"
@@ -78,6 +79,24 @@ Json lens_json(const TrackedVideo& video) {
     return json;
 }
 
+/// The most likely swaps of IDs.
+Json swaps_json(const TrackedVideo& video) {
+    constexpr std::size_t most = 10;
+    Json swaps = Json::array();
+    for (const PossibleSwap& swap : video.swaps)
+        if (swaps.size() < most)
+            swaps.push_back({{"frame", video.tracks.frames[swap.frame].number},
+                             {"linked_from", video.tracks.frames[swap.from].number},
+                             {"discs", {swap.first, swap.second}},
+                             {"chance", swap.chance}});
+    return swaps;
+}
+
+double expected_swaps(const TrackedVideo& video) {
+    return std::accumulate(video.swaps.begin(), video.swaps.end(), 0.0,
+                           [](double sum, const PossibleSwap& swap) { return sum + swap.chance; });
+}
+
 Json video_json(const TrackedVideo& video, const VideoSource& source) {
     Json species = Json::array();
     for (const TrackedSpecies& one : video.species)
@@ -85,10 +104,6 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
                            {"radius", one.radius},
                            {"radius_error", one.radius * video.radius_error / video.radius},
                            {"radius_scatter", one.scatter}});
-    Json swaps = Json::array();
-    for (const PossibleSwap& swap : video.swaps)
-        swaps.push_back({{"frame", video.tracks.frames[swap.frame].number},
-                         {"discs", {swap.first, swap.second}}});
     const TrackScale scale = video.scale();
     return {
         {"format", camera_format},
@@ -135,7 +150,9 @@ Json video_json(const TrackedVideo& video, const VideoSource& source) {
           {"position_error_factor", video.error_factor},
           {"overlap_error", video.overlap_error},
           {"filled_positions", video.filled},
-          {"possible_swaps", swaps},
+          {"possible_swaps", swaps_json(video)},
+          {"possible_swap_count", video.swaps.size()},
+          {"expected_swaps", expected_swaps(video)},
           {"excess_discs", video.rejected},
           {"frames_with_excess_discs", video.crowded}}},
         {"millimetres_per_pixel",

@@ -300,8 +300,10 @@ std::size_t start_of_links(const std::vector<std::vector<DetectedDisc>>& frames,
 
 /// The pairs of tracks for which the other assignment is hardly less likely. Errors of expected
 /// positions are those of all tracks, and grow with the number of frames in which one was missed.
+/// Links go from the frame `start` to both ends.
 std::vector<PossibleSwap> possible_swaps(const std::vector<std::vector<Expectation>>& steps,
-                                         const std::vector<std::size_t>& species) {
+                                         const std::vector<std::size_t>& species,
+                                         std::size_t start) {
     constexpr double max_log_odds = 3.0;
     double sum = 0.0, number = 0.0;
     for (const auto& step : steps)
@@ -324,8 +326,16 @@ std::vector<PossibleSwap> possible_swaps(const std::vector<std::vector<Expectati
                 double odds = log_of(other, *one.found, hidden) - log_of(one, *one.found, hidden);
                 if (other.found)
                     odds += log_of(one, *other.found, hidden) - log_of(other, *other.found, hidden);
-                if (odds < max_log_odds) swaps.push_back({k, a, b});
+                if (odds >= max_log_odds) continue;
+                const std::size_t gap = 1 + std::size_t(std::max(one.unsure, other.unsure));
+                const std::size_t from =
+                    k < start ? std::min(k + gap, steps.size() - 1) : k - std::min(k, gap);
+                const double chance = 1.0 / (1.0 + std::exp(odds));
+                swaps.push_back(
+                    {.frame = k, .first = a, .second = b, .from = from, .chance = chance});
             }
+    std::stable_sort(swaps.begin(), swaps.end(),
+                     [](const auto& a, const auto& b) { return a.chance > b.chance; });
     return swaps;
 }
 
@@ -429,7 +439,7 @@ Links link_discs(const std::vector<std::vector<DetectedDisc>>& frames,
     }
     for (std::size_t k = start; k-- > 0;) link(backward, k);
     for (const Track& t : forward.tracks) links.species.push_back(t.species);
-    links.swaps = possible_swaps(steps, links.species);
+    links.swaps = possible_swaps(steps, links.species, start);
     return links;
 }
 

@@ -36,9 +36,11 @@ struct LinkSettings {
     std::function<void()> throw_if_stopped{};  // called once per frame and row
 };
 
-/// Two tracks that may continue each other from this frame on.
+/// Two tracks that may continue each other in `frame`, to which they were linked from the frame
+/// `from`: the one before, or the one after if links go back, or farther if a disc was hidden.
 struct PossibleSwap {
-    std::size_t frame = 0, first = 0, second = 0;
+    std::size_t frame = 0, first = 0, second = 0, from = 0;
+    double chance = 0.0;  // that they do
 };
 
 /// A sure detection beyond the number of discs.
@@ -54,7 +56,7 @@ struct Links {
     std::optional<ExtraDisc> extra;    // one of them
     std::uint64_t rejected = 0;        // number of these
     std::uint64_t crowded = 0;         // frames with at least one
-    std::vector<PossibleSwap> swaps;   // ascending frames
+    std::vector<PossibleSwap> swaps;   // the most likely ones first
 };
 
 /// Throws std::invalid_argument unless times are finite and strictly ascending.

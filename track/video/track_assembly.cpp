@@ -119,10 +119,12 @@ void assemble_tracks(const Detections& all, const Links& links, std::int64_t fir
     // Of two sizes that the survey saw, one may be that of a few wrong circles.
     std::erase_if(tracked.species, [](const TrackedSpecies& s) { return s.number == 0; });
     tracked.number = static_cast<std::size_t>(id);
-    for (const PossibleSwap& swap : links.swaps)
-        if (ids[swap.first] >= 0 && ids[swap.second] >= 0)
-            tracked.swaps.push_back(
-                {swap.frame, std::size_t(ids[swap.first]), std::size_t(ids[swap.second])});
+    for (PossibleSwap swap : links.swaps) {
+        if (ids[swap.first] < 0 || ids[swap.second] < 0) continue;
+        swap.first = std::size_t(ids[swap.first]);
+        swap.second = std::size_t(ids[swap.second]);
+        tracked.swaps.push_back(swap);
+    }
 }
 
 }  // namespace swirl::tracking

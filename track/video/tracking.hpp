@@ -117,7 +117,7 @@ struct TrackedVideo {
     std::vector<std::vector<double>> errors;      // of a coordinate, for each disc of each frame
     std::vector<std::vector<std::uint8_t>> seen;  // 0: interpolated
     std::vector<std::vector<Vec2>> rolled;        // ways until the disc's row was read; removed
-    std::vector<PossibleSwap> swaps;              // of IDs
+    std::vector<PossibleSwap> swaps;              // of IDs, the most likely ones first
     std::optional<ExtraDisc> extra;               // the first one beyond the number of discs
     std::size_t number = 0;                       // of discs
     std::optional<std::size_t> number_given;      // by the user

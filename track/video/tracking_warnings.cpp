@@ -241,8 +241,8 @@ void warn_about_discs(double outside, TrackedVideo& tracked) {
              100.0 * occlusion.share, missing_text(tracked), omission.empty() ? "" : "; ",
              omission);
     for (const PossibleSwap& swap : tracked.swaps)
-        swaps.push_back(fmt::format("{} and {} in frame {}", swap.first, swap.second,
-                                    number_of(tracked, swap.frame)));
+        swaps.push_back(fmt::format("{} and {} in frame {} ({:.0f} %)", swap.first, swap.second,
+                                    number_of(tracked, swap.frame), 100.0 * swap.chance));
     if (!swaps.empty())
         warn(tracked,
              "some IDs are uncertain: discs that were hidden or fast may have swapped theirs: {}",

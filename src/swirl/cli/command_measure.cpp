@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
@@ -41,13 +42,15 @@ OpenedSeries open_series(const MeasureCall& call) {
     if (std::filesystem::is_directory(call.file, ignored))
         throw UsageError(fmt::format(
             "'{}' is a folder, but FILE must be a recording.\nhint: give a trajectory or tracks of "
-            "swirl, a table of trackpy (CSV), or a LAMMPS text dump.",
+            "swirl, a table of a tracker (CSV), or a LAMMPS text dump.",
             call.file));
     try_reading(call.file);
     if (is_trajectory(call.file)) {
         reject_track_options(call.camera, call.file);
         if (!call.max_invalid.empty()) throw_option_of_tracks("max-invalid", call.file);
-        return {series_of_run(std::make_shared<TrajectoryReader>(call.file)), ""};
+        OpenedSeries opened;
+        opened.series = series_of_run(std::make_shared<TrajectoryReader>(call.file));
+        return opened;
     }
     return open_tracks(call.file, call.camera,
                        number_option("max-invalid", call.max_invalid, default_misfit, 0.0));
@@ -108,22 +111,36 @@ MeasuredSeries measure_with_progress(const MeasureCall& call, const SnapshotSeri
     return measure_series(series, names, warmup, control);
 }
 
+Json rotation_json(const RotationEstimates& rotation) {
+    return {{"mean_by_time", estimate_json(rotation.mean_by_time)},
+            {"rigid_by_time", estimate_json(rotation.rigid_by_time)}};
+}
+
+/// What ϖ is without the links that `swirl track` calls uncertain.
+std::optional<RotationEstimates> rotation_without_swaps(const OpenedSeries& opened, double warmup) {
+    if (!opened.without_swaps || opened.without_swaps->frames == 0) return {};
+    return measure_series(*opened.without_swaps, {}, warmup).rotation;
+}
+
 Json json_of(const MeasureCall& call, const OpenedSeries& opened, const MeasuredSeries& measured,
-             const Json& values, const std::string& remarks) {
+             const std::optional<RotationEstimates>& certain, const Json& values,
+             const std::string& remarks) {
+    Json rotation = rotation_json(measured.rotation);
+    if (certain) rotation["without_swaps"] = rotation_json(*certain);
     return {{"file", stored_path(call.file)},
             {"frames", measured.frames},
             {"discs", measured.discs},
             {"same_discs", opened.series.same_discs()},
-            {"rotation",
-             {{"mean_by_time", estimate_json(measured.rotation.mean_by_time)},
-              {"rigid_by_time", estimate_json(measured.rotation.rigid_by_time)}}},
+            {"rotation", rotation},
             {"measured", values},
             {"camera", Json::parse(opened.camera)},
             {"remark", remarks},
             {"version", version()}};
 }
 
-std::string report_text(const SnapshotSeries& series, const MeasuredSeries& measured) {
+std::string report_text(const OpenedSeries& opened, const MeasuredSeries& measured,
+                        const std::optional<RotationEstimates>& certain) {
+    const SnapshotSeries& series = opened.series;
     const RotationEstimates& e = measured.rotation;
     const std::string bodies =
         counted(std::int64_t(measured.discs), series.frame(0).are_balls() ? "sphere" : "disc");
@@ -136,6 +153,12 @@ std::string report_text(const SnapshotSeries& series, const MeasuredSeries& meas
                            : fmt::format("{}: ϖ/Ω = {}\n", words,
                                          with_error(e.mean_by_time.mean, e.mean_by_time.error));
     text += rigid_body_line(e);
+    if (certain)
+        text += report_line(
+            "swaps",
+            fmt::format("ϖ/Ω = {} without {} of IDs",
+                        with_error(certain->mean_by_time.mean, certain->mean_by_time.error),
+                        counted(std::int64_t(opened.swaps), "possible swap")));
     return text + report_line("average", counted(std::int64_t(measured.frames), "frame")) +
            measured_text(measured.reports);
 }
@@ -159,11 +182,12 @@ void measure_file(const MeasureCall& call) {
         throw Failure(fmt::format("--warmup {} leaves no frame of '{}'.", call.warmup, call.file));
 
     const MeasuredSeries measured = measure_with_progress(call, series, names, warmup);
+    const auto certain = rotation_without_swaps(opened, warmup);
     const Json values = measured_json(measured.reports);
     std::string remarks = opened.remarks;
     const std::array warnings{remark_on_rolling(values), measured.remark};
     for (const std::string& warning : warnings) remarks += warning.empty() ? "" : warning + "\n";
-    const Json json = json_of(call, opened, measured, values, remarks);
+    const Json json = json_of(call, opened, measured, certain, values, remarks);
     if (!call.tables.empty()) {
         make_folder(call.tables);
         write_measured_tables(measured.reports, call.tables);
@@ -172,7 +196,8 @@ void measure_file(const MeasureCall& call) {
         print_all(json.dump(2) + "\n");
     else if (!call.json.empty())
         write_output(call.json, json.dump(2) + "\n");
-    if (call.json != "-" && !call.quiet) print_all(report_text(series, measured) + opened.remarks);
+    if (call.json != "-" && !call.quiet)
+        print_all(report_text(opened, measured, certain) + opened.remarks);
     for (const std::string& warning : warnings)
         if (!warning.empty()) print_warning(warning);
 }
@@ -198,7 +223,8 @@ void add_measure_command(Subcommand& subcommand) {
         {"--max-invalid", &call->max_invalid, "Allowed fraction of invalid frames [0.05]", "SHARE"},
     });
     subcommand.explain(
-        "FILE is a trajectory or tracks of swirl, a table of trackpy (CSV), or a LAMMPS text "
+        "FILE is a trajectory or tracks of swirl, a table of another tracker (CSV), or a LAMMPS "
+        "text "
         "dump. A frame is invalid if discs overlap or lie outside the container "
         "(--max-invalid).\n");
     subcommand.set_main_options({"--measure", "--tables", "--json", "--warmup", "--camera-fps",

@@ -111,7 +111,7 @@ FrameSource tracked_in(const SourceTexts& texts) {
                         option_name(given.begin()->first), texts.file));
     if (const auto wrong = video_problem(texts.images)) throw UsageError(*wrong);
     const TrackScale scale = track_scale(camera, texts.file);
-    Tracks tracks = read_tracks(texts.file, scale);
+    Tracks tracks = read_tracks(texts.file, scale, table_layout(texts.camera));
     const CameraRecord camera_motion = camera_record(texts.file);
     ImageMotion motion{camera_motion.first_frame};
     for (const auto& [x, y, a, b] : camera_motion.poses) motion.poses.push_back({{x, y}, a, b});

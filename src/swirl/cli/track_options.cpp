@@ -86,6 +86,7 @@ class CameraFile {
         if (const auto uneven = json_.find("uneven_times");
             uneven != json_.end() && !uneven->is_null())
             record.uneven_times = number_in(*uneven, "uneven_times");
+        read_swaps(record);
         const auto motion = json_.find("camera_motion");
         if (motion == json_.end() || !motion->is_object()) return record;
         const auto frames = motion->find("frames");
@@ -112,6 +113,21 @@ class CameraFile {
     }
 
   private:
+    void read_swaps(CameraRecord& record) const {
+        const nlohmann::json none = nlohmann::json::array();
+        const auto quality = json_.find("quality");
+        if (quality == json_.end() || !quality->is_object()) return;
+        for (const nlohmann::json& swap : quality->value("possible_swaps", none)) {
+            if (!swap.is_object() || !swap.contains("linked_from")) continue;
+            std::array<std::int64_t, 2> frames{};
+            frames[0] = std::int64_t(number_in(swap["linked_from"], "linked_from"));
+            frames[1] = std::int64_t(number_in(swap.value("frame", nlohmann::json()), "frame"));
+            const auto [from, to] = std::minmax(frames[0], frames[1]);
+            for (const nlohmann::json& disc : swap.value("discs", none))
+                record.uncertain.push_back(
+                    {.id = std::int64_t(number_in(disc, "discs")), .from = from, .to = to});
+        }
+    }
     [[noreturn]] void fail(const std::string& what) const {
         throw Failure(fmt::format(
             "'{}' is not a calibration by `swirl track`: {}.\nhint: remove it, or track the video "
@@ -174,6 +190,9 @@ void add_track_options(Subcommand& subcommand, TrackTexts& texts, const std::str
         {"--phase", &texts.phase, "Container phase at frame 0, counter-clockwise from +x [0]",
          "DEG"},
         {"--clockwise", &texts.clockwise, "The container moves clockwise in the image"},
+        {"--columns", &texts.columns, "Columns of a table, frame=NAME,particle=NAME,x=NAME,y=NAME",
+         "LIST"},
+        {"--y-up", &texts.y_up, "Upward y axis in a table, not downward"},
     });
 }
 
@@ -188,6 +207,8 @@ void reject_track_options(const TrackTexts& given, const std::string& file) {
         if (!(given.*number.text).empty()) throw_option_of_tracks(number.name, file);
     if (!given.centre.empty()) throw_option_of_tracks("centre", file);
     if (given.clockwise) throw_option_of_tracks("clockwise", file);
+    if (!given.columns.empty()) throw_option_of_tracks("columns", file);
+    if (given.y_up) throw_option_of_tracks("y-up", file);
 }
 
 bool is_named_as_tracks(const std::string& file) {
@@ -199,22 +220,50 @@ bool is_trajectory(const std::string& file) { return is_hdf5(file) && !is_track_
 namespace {
 
 /// The tracks as they are in the file.
-Tracks read_unrepaired_tracks(const std::string& file) {
+Tracks read_unrepaired_tracks(const std::string& file, const TableLayout& layout) {
     const std::string begin = file_signature(file);
+    const bool is_table = !is_hdf5(file) && !begin.starts_with("ITEM:");
+    if (!is_table && (layout.has_names() || layout.y_up))
+        throw UsageError(fmt::format("--{} applies to a table, but '{}' is none.",
+                                     layout.y_up ? "y-up" : "columns", file));
     if (is_hdf5(file)) return read_track_recording(file);
     if (begin.starts_with("ITEM:")) return read_lammps_dump(file);
     if (std::any_of(begin.begin(), begin.end(), [](char c) { return c >= 0 && c < '\t'; }))
-        throw Failure(
-            fmt::format("'{}' is none of these: swirl trajectory or tracks (HDF5), trackpy table "
-                        "(CSV), LAMMPS text dump.",
-                        file));
-    return read_trackpy_csv(file);
+        throw Failure(fmt::format(
+            "'{}' is none of these: swirl trajectory or tracks (HDF5), table of a tracker "
+            "(CSV), LAMMPS text dump.",
+            file));
+    return read_track_table(file, layout);
 }
 
 }  // namespace
 
-Tracks read_tracks(const std::string& file, const TrackScale& scale) {
-    Tracks tracks = read_unrepaired_tracks(file);
+TableLayout table_layout(const TrackTexts& given) {
+    TableLayout layout{.y_up = given.y_up};
+    const std::string_view list = given.columns;
+    for (std::size_t begin = 0; begin < list.size();) {
+        const std::size_t end = std::min(list.find(',', begin), list.size());
+        const std::string_view part = list.substr(begin, end - begin);
+        const std::size_t sign = std::min(part.find('='), part.size());
+        const std::string_view key = part.substr(0, sign);
+        std::string* const name = key == "frame"      ? &layout.frame
+                                  : key == "particle" ? &layout.particle
+                                  : key == "x"        ? &layout.x
+                                  : key == "y"        ? &layout.y
+                                                      : nullptr;
+        if (name == nullptr || !name->empty() || sign + 1 >= part.size())
+            throw UsageError(fmt::format(
+                "--columns is '{}', but it must give names to frame, particle, x or y, for example "
+                "frame=Slice,particle=Track.",
+                given.columns));
+        *name = part.substr(sign + 1);
+        begin = end + 1;
+    }
+    return layout;
+}
+
+Tracks read_tracks(const std::string& file, const TrackScale& scale, const TableLayout& layout) {
+    Tracks tracks = read_unrepaired_tracks(file, layout);
     repair(tracks, scale.pixels_per_radius);
     return tracks;
 }
@@ -230,7 +279,8 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty()) {
-            (void)read_unrepaired_tracks(file);  // a file of another kind is the first problem
+            (void)read_unrepaired_tracks(
+                file, table_layout(given));  // a file of another kind is the first problem
             throw UsageError(fmt::format(
                 "'{}' has no calibration next to it (a .camera.json file), so --{} is required.\n"
                 "hint: also check the defaults --camera-fps 1, --scale 1, --centre 0,0, "

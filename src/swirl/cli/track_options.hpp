@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "swirl/cli/options.hpp"
+#include "swirl/io/track_repair.hpp"
 #include "swirl/io/tracks.hpp"
 
 namespace swirl {
@@ -18,6 +19,8 @@ struct TrackTexts {
     std::string fps, scale, omega, centre, phase;
     std::string amplitude, container_radius;
     bool clockwise = false;
+    std::string columns;
+    bool y_up = false;
 };
 
 /// The number given with --name, or `otherwise` if `text` is empty. Throws UsageError for a number
@@ -38,9 +41,12 @@ void reject_track_options(const TrackTexts& given, const std::string& file);
 bool is_named_as_tracks(const std::string& file);
 /// True if the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.
 bool is_trajectory(const std::string& file);
-/// Reads tracks (HDF5, trackpy table or LAMMPS dump, by their first bytes) and repairs them
+/// Reads tracks (HDF5, table of a tracker or LAMMPS dump, by their first bytes) and repairs them
 /// (swirl/io/track_repair.hpp). Throws FileError.
-Tracks read_tracks(const std::string& file, const TrackScale& scale);
+/// Only tables may have another layout.
+Tracks read_tracks(const std::string& file, const TrackScale& scale, const TableLayout& layout);
+/// Throws UsageError.
+TableLayout table_layout(const TrackTexts& given);
 /// Key `format` of a .camera.json; a file without it has format 1.
 inline constexpr int camera_format = 1;
 /// tracks.csv or tracks.h5 → tracks.camera.json: the calibration that `swirl track` found.
@@ -54,6 +60,7 @@ struct CameraRecord {
     std::int64_t first_frame = 0;
     std::vector<std::array<double, 4>> poses;  // poses of the moving camera, from first_frame on
     std::optional<double> uneven_times;        // largest deviation of a step, relative to the mean
+    std::vector<UncertainLink> uncertain;      // two for each of the likeliest swaps of IDs
 };
 CameraRecord camera_record(const std::string& file);
 

@@ -42,15 +42,24 @@ Json camera_json(const Tracks& tracks, const FittedSeries& fitted) {
 
 OpenedSeries open_tracks(const std::string& file, const TrackTexts& camera, double misfit) {
     const TrackScale scale = track_scale(camera, file);
-    const Tracks tracks = at_equal_steps(read_tracks(file, scale), scale);
+    Tracks tracks = at_equal_steps(read_tracks(file, scale, table_layout(camera)), scale);
     if (tracks.frames.size() == 1 && tracks.frames.front().velocity.empty())
         throw Failure(
             fmt::format("'{}' holds a single frame, but velocities need at least two.", file));
-    const auto uneven = camera_record(file).uneven_times;
+    const CameraRecord record = camera_record(file);
     FittedSeries fitted = fitted_series(tracks, scale, misfit);
     Json found = camera_json(tracks, fitted);
-    found["uneven_times"] = uneven ? Json(*uneven) : Json(nullptr);
-    return {std::move(fitted.series), std::move(fitted.remarks), found.dump()};
+    found["uneven_times"] = record.uneven_times ? Json(*record.uneven_times) : Json(nullptr);
+    OpenedSeries opened;
+    opened.series = std::move(fitted.series);
+    opened.remarks = std::move(fitted.remarks);
+    opened.camera = found.dump();
+    if (record.uncertain.empty()) return opened;
+    cut(tracks, record.uncertain);
+    TrackSmoothing ignored;
+    opened.without_swaps = smoothed_series(std::move(tracks), scale, ignored);
+    opened.swaps = record.uncertain.size() / 2;
+    return opened;
 }
 
 }  // namespace swirl

@@ -237,6 +237,11 @@ double NumberTable::number(std::size_t column) {
     return *value;
 }
 
+bool NumberTable::is_missing(std::size_t column) const {
+    const std::string cell = in_lower_case(cells_[column]);
+    return cell.empty() || cell == "nan" || cell == "na" || cell == "n/a";
+}
+
 std::string NumberTable::text(std::size_t column) {
     std::string cell(cells_[column]);
     const bool has_comma = number_with_comma(cell).has_value();

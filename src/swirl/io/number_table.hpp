@@ -63,6 +63,9 @@ class NumberTable {
     /// The text of a cell, which may be a number. If it is one, it has a decimal point.
     std::string text(std::size_t column);
     bool is_empty(std::size_t column) const { return cells_[column].empty(); }
+    /// True for an empty cell, and for nan, na and n/a.
+    bool is_missing(std::size_t column) const;
+    bool is_number(std::size_t column) const { return value_of(cells_[column]).has_value(); }
     double number(std::size_t column);
     std::int64_t integer(std::size_t column);
 

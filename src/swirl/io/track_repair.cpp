@@ -152,7 +152,41 @@ void make_ids_unique(std::vector<Piece>& pieces) {
         if (!taken.insert(piece.id).second) piece.id = unused++;
 }
 
+/// Applies `change` to the values of all discs of a frame, one vector for each quantity.
+void change_columns(TrackFrame& frame, const auto& change) {
+    change(frame.id);
+    change(frame.position);
+    if (!frame.velocity.empty()) change(frame.velocity);
+    for (auto* column : {&frame.radius, &frame.mass, &frame.spin, &frame.velocity_error})
+        if (!column->empty()) change(*column);
+}
+
 }  // namespace
+
+void cut(Tracks& tracks, std::vector<UncertainLink> links) {
+    std::int64_t unused = 0;
+    for (const TrackFrame& frame : tracks.frames)
+        for (const std::int64_t id : frame.id) unused = std::max(unused, id + 1);
+    // Later links first, so that earlier ones still find the given ID.
+    std::sort(links.begin(), links.end(),
+              [](const UncertainLink& a, const UncertainLink& b) { return a.to > b.to; });
+    for (const UncertainLink& link : links) {
+        for (TrackFrame& frame : tracks.frames) {
+            const auto at = std::lower_bound(frame.id.begin(), frame.id.end(), link.id);
+            if (frame.number <= link.from || at == frame.id.end() || *at != link.id) continue;
+            const auto i = at - frame.id.begin();
+            if (frame.number < link.to) {
+                change_columns(frame, [i](auto& values) { values.erase(values.begin() + i); });
+                continue;
+            }
+            *at = unused;
+            change_columns(frame, [i](auto& values) {
+                std::rotate(values.begin() + i, values.begin() + i + 1, values.end());
+            });
+        }
+        ++unused;
+    }
+}
 
 std::int64_t commonest_step(const Tracks& tracks) {
     std::map<std::int64_t, std::uint64_t> steps;

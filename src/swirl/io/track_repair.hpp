@@ -15,6 +15,9 @@
 // radius per frame, positions cannot identify discs, and the given IDs are kept.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "swirl/io/tracks.hpp"
 
 namespace swirl {
@@ -22,6 +25,15 @@ namespace swirl {
 /// Repairs tracks of discs with the given radius in pixels, and counts the changes in
 /// tracks.repaired. Only tracks of positions alone are changed.
 void repair(Tracks& tracks, double radius);
+
+/// A link of one disc from one frame to a later one, which may be wrong.
+struct UncertainLink {
+    std::int64_t id = 0, from = 0, to = 0;  // ID and frame numbers
+};
+
+/// Cuts tracks at these links: positions between the two frames are removed, and the disc has
+/// another ID from the later one on.
+void cut(Tracks& tracks, std::vector<UncertainLink> links);
 
 /// The most common difference between consecutive frame numbers; 1 for fewer than two frames.
 std::int64_t commonest_step(const Tracks& tracks);

@@ -14,6 +14,7 @@
 #include "swirl/io/file_error.hpp"
 #include "swirl/io/number_table.hpp"
 #include "swirl/io/range_checks.hpp"
+#include "swirl/io/read_number.hpp"
 #include "swirl/io/track_repair.hpp"
 #include "swirl/math/unit_circle.hpp"
 
@@ -148,16 +149,37 @@ void read_atoms(TextLines& lines, std::string_view names, std::int64_t atoms, Tr
     }
 }
 
+/// The column with the given name, in any case, or else with one of the usual names.
+std::optional<std::size_t> find_column(NumberTable& table, const std::string& given,
+                                       const std::vector<std::string_view>& usual) {
+    if (given.empty()) return table.find(usual);
+    const std::string name = in_lower_case(given);
+    return table.find({name});
+}
+const std::string& or_else(const std::string& given, const std::string& usual) {
+    return given.empty() ? usual : given;
+}
+
 }  // namespace
 
-Tracks read_trackpy_csv(const std::filesystem::path& path) {
+Tracks read_track_table(const std::filesystem::path& path, const TableLayout& layout) {
     const std::string text = read_whole_file(path);
     TextLines lines(fmt::format("'{}'", path.string()), text);
     NumberTable table(lines);
-    const auto frame = table.find({"frame"}), particle = table.find({"particle"}),
-               x = table.find({"x"}), y = table.find({"y"});
+    // Names of trackpy, TrackMate, MOSAIC and Manual Tracking.
+    const auto frame = find_column(table, layout.frame, {"frame", "slice", "slice n°"}),
+               particle = find_column(table, layout.particle,
+                                      {"particle", "track_id", "trajectory", "track n°"}),
+               x = find_column(table, layout.x, {"x", "position_x"}),
+               y = find_column(table, layout.y, {"y", "position_y"});
     if (!frame || !particle || !x || !y)
-        lines.fail("the header must name the columns frame, particle, x and y");
+        lines.fail(layout.has_names()
+                       ? fmt::format("the header must name the columns {}, {}, {} and {}",
+                                     or_else(layout.frame, "frame"),
+                                     or_else(layout.particle, "particle"), or_else(layout.x, "x"),
+                                     or_else(layout.y, "y"))
+                       : "the header must name the columns frame, particle, x and y.\nhint: name "
+                         "other columns, such as --columns frame=Slice,particle=Track");
     struct Entry {
         Vec2 position;
         double radius, spin;
@@ -170,7 +192,10 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
         spin = table.find({"spin"});
         time = table.find({"time"});
     }
+    const bool has_units = table.find({"track_id"}).has_value();  // TrackMate: up to three rows
     while (table.next()) {
+        if (has_units && tracks.empty() && !table.is_number(*frame)) continue;
+        if (table.is_missing(*particle) || table.is_missing(*x) || table.is_missing(*y)) continue;
         const std::int64_t id = table.integer(*particle), number = table.integer(*frame);
         Entry entry{{table.number(*x), table.number(*y)}, 0.0, unknown};
         if (radius) entry.radius = table.number(*radius);
@@ -190,7 +215,7 @@ Tracks read_trackpy_csv(const std::filesystem::path& path) {
     if (tracks.empty()) throw FileError(fmt::format("'{}' holds no positions.", path.string()));
 
     Tracks result;
-    result.y_down = true;
+    result.y_down = !layout.y_up;
     std::map<std::int64_t, TrackFrame> frames;
     for (const auto& [id, track] : tracks)
         for (const auto& [number, entry] : track) {

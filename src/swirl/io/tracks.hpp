@@ -1,7 +1,9 @@
 // Snapshots from tracks that a camera or another program recorded.
 //
-//   trackpy CSV   A header line with at least frame, particle, x, y. Columns may have any order;
-//                 other columns are ignored. x points right and y down, in pixels. A table with
+//   CSV table     Of any tracker, with a header line. Without other names, the columns are frame,
+//                 particle, x and y as of trackpy, or the names of ImageJ's TrackMate and MOSAIC.
+//                 Columns may have any order; other columns are ignored. x points right and y
+//                 down, in pixels. A row without particle, x or y has no position. A table with
 //                 the column `seen`, as `swirl track` writes it, may also give `radius` and `spin`
 //                 (counter-clockwise in the image, per unit of time).
 //   LAMMPS dump   Text with id, x and y (or xu, yu), and optionally vx, vy, radius, mass, omegaz.
@@ -72,8 +74,15 @@ struct TrackScale {
     double camera_time() const { return our_period() / period; }
 };
 
+/// The columns of a table by another program; the names of known trackers if empty.
+struct TableLayout {
+    std::string frame{}, particle{}, x{}, y{};
+    bool y_up = false;
+    bool has_names() const { return !(frame + particle + x + y).empty(); }
+};
+
 /// Throw FileError with the line number.
-Tracks read_trackpy_csv(const std::filesystem::path& path);
+Tracks read_track_table(const std::filesystem::path& path, const TableLayout& layout = {});
 Tracks read_lammps_dump(const std::filesystem::path& path);
 
 /// Throws FileError unless each frame has a later number, and a later time if times are given, than

@@ -160,10 +160,20 @@ TEST(Linking, DiscsThatWereHiddenTogetherArePossibleSwaps) {
         const Links links = link_discs(scene.frames, scene.times, scene.path, settings);
         const auto first = std::size_t(links.track[19].end()[-2]),
                    second = std::size_t(links.track[19].back());
-        EXPECT_TRUE(std::any_of(links.swaps.begin(), links.swaps.end(), [&](const auto& swap) {
-            return swap.frame == 25 &&
-                   std::minmax(swap.first, swap.second) == std::minmax(first, second);
-        })) << seed;
+        const auto swap =
+            std::find_if(links.swaps.begin(), links.swaps.end(), [&](const auto& possible) {
+                return possible.frame == 25 &&
+                       std::minmax(possible.first, possible.second) == std::minmax(first, second);
+            });
+        ASSERT_NE(swap, links.swaps.end()) << seed;
+        EXPECT_EQ(swap->from, 19u) << seed;
+        // At odds of 3 for the given assignment, the chance is 1/(1 + e³).
+        EXPECT_GT(swap->chance, 1.0 / (1.0 + std::exp(3.0))) << seed;
+        EXPECT_LT(swap->chance, 1.0) << seed;
+        EXPECT_TRUE(
+            std::is_sorted(links.swaps.begin(), links.swaps.end(),
+                           [](const auto& a, const auto& b) { return a.chance > b.chance; }))
+            << seed;
     }
 }
 
