@@ -23,6 +23,7 @@
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/parse_json.hpp"
 #include "swirl/run/programs.hpp"
+#include "swirl/run/python_script.hpp"
 #include "swirl/run/version.hpp"
 #include "track/cli/video_options.hpp"
 #include "track/experiment/experiment.hpp"
@@ -208,6 +209,7 @@ void make_experiment_report(ExperimentCall& call) {
     call.settings.simulate = !call.no_simulation;
     call.settings.command = command_line();
     validate(call);
+    require_figure_packages();
     make_folder(call.out);
     std::vector<ContainerVideo> videos;
     for (const std::string& video : call.rough) videos.push_back(measure_video(call, video, false));

@@ -12,6 +12,7 @@
 
 #include "swirl/io/atomic_file.hpp"
 #include "swirl/io/checksum.hpp"
+#include "swirl/math/median.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/parallel_for.hpp"
@@ -80,8 +81,6 @@ class Experiment {
   public:
     Experiment(const std::vector<ContainerVideo>& videos, const ExperimentSettings& settings)
         : videos_(videos), settings_(settings) {
-        radius_ = median_of("container-radius");
-        amplitude_ = median_of("amplitude");
         if (settings.simulate)
             for (std::size_t k = 0; k < videos.size(); ++k)
                 if (videos[k].good()) add_counterpart(k);
@@ -93,18 +92,27 @@ class Experiment {
     Json json() const;
 
   private:
-    double median_of(const char* name) const {
+    /// The values of the good videos, or of those but one.
+    std::vector<double> values_of(const char* name, const ContainerVideo* without = nullptr) const {
         std::vector<double> values;
         for (const ContainerVideo& video : videos_)
-            if (video.good()) values.push_back(of_camera(video, name));
-        if (values.empty()) return not_available;
-        std::sort(values.begin(), values.end());
-        return values[values.size() / 2];
+            if (video.good() && &video != without) values.push_back(of_camera(video, name));
+        return values;
     }
-    /// The median of all videos, if this video agrees with it: they show the same container.
-    double shared(const ContainerVideo& video, const char* name, double median) const {
-        const double measured = of_camera(video, name);
-        return std::abs(measured - median) <= same_container * median ? median : measured;
+    /// What a video is compared with: the median of all videos, or the other one of two, of which
+    /// neither is the odd one.
+    double reference(const ContainerVideo& video, const char* name) const {
+        const std::vector<double> all = values_of(name);
+        return median(all.size() == 2 ? values_of(name, &video) : all);
+    }
+    bool is_odd(const ContainerVideo& video, const char* name) const {
+        const double usual = reference(video, name);
+        return std::abs(of_camera(video, name) - usual) > same_container * usual;
+    }
+    /// The median of all videos, if this video agrees with the others: they show the same
+    /// container.
+    double shared(const ContainerVideo& video, const char* name) const {
+        return is_odd(video, name) ? of_camera(video, name) : median(values_of(name));
     }
     void add_counterpart(std::size_t video);
     const Json& simulated(std::size_t video) const {
@@ -129,7 +137,6 @@ class Experiment {
 
     const std::vector<ContainerVideo>& videos_;
     const ExperimentSettings& settings_;
-    double radius_, amplitude_;
     std::vector<Counterpart> counterparts_;
     std::map<std::size_t, std::size_t> counterpart_of_;
 };
@@ -162,11 +169,11 @@ RunConfig config_of(const ContainerVideo& video, const ExperimentSettings& setti
 
 void Experiment::add_counterpart(std::size_t k) {
     const ContainerVideo& video = videos_[k];
-    Counterpart made{video.smooth,
-                     config_of(video, settings_, shared(video, "container-radius", radius_),
-                               shared(video, "amplitude", amplitude_)),
-                     {},
-                     {}};
+    Counterpart made{
+        video.smooth,
+        config_of(video, settings_, shared(video, "container-radius"), shared(video, "amplitude")),
+        {},
+        {}};
     made.sampling.frames_per_period = std::max(4, int(std::lround(frames_per_period(video))));
     made.sampling.position_error =
         std::round(1e4 * position_error(video) / of_camera(video, "scale")) * 1e-4;
@@ -406,13 +413,15 @@ void Experiment::add_video_findings(const ContainerVideo& video, const Json& sim
             "simulation: {} are needed, and twenty make the error reliable.",
             video.name, number(at(video.result, {"periods"})), min_blocks_of_an_error));
     for (const char* name : {"container-radius", "amplitude"}) {
-        const double median = name[0] == 'c' ? radius_ : amplitude_;
-        const double measured = of_camera(video, name);
-        if (std::abs(measured - median) > same_container * median)
+        if (is_odd(video, name))
             findings.push_back(fmt::format(
-                "The {} of {} is {:.3f} disc radii, but the median of all videos is {:.3f}: a "
-                "different container, or different discs. Its simulation uses its own value.",
-                name[0] == 'c' ? "container radius" : "amplitude", video.name, measured, median));
+                "The {} of {} is {:.3f} disc radii, but {} {:.3f}: a different container, or "
+                "different discs. Its simulation uses its own value.",
+                name[0] == 'c' ? "container radius" : "amplitude", video.name,
+                of_camera(video, name),
+                values_of(name).size() == 2 ? "that of the other video is"
+                                            : "the median of all videos is",
+                reference(video, name)));
     }
 }
 

@@ -173,6 +173,41 @@ class Experiment(InFolder):
         with open(self.path("tables/report.html"), encoding="utf-8") as file:
             self.assertTrue(re.search("none could not be used", file.read()))
 
+        # Of two videos with another container each, neither is the odd one.
+        tracks = os.path.join(out, "tracks", "N16.csv")
+        shutil.copy(tracks, self.path("larger.csv"))
+        with open(tracks[:-4] + ".camera.json", encoding="utf-8") as file:
+            camera = json.load(file)
+        camera["camera"]["container-radius"] *= 1.05
+        with open(self.path("larger.camera.json"), "w", encoding="utf-8") as file:
+            json.dump(camera, file)
+        done = self.experiment(
+            tracks, self.path("larger.csv"), "--no-simulation", "--out", self.path("two")
+        )
+        for name in ("N16", "larger"):
+            self.assertRegex(
+                done.stdout,
+                rf"The container radius of {name} is \S+ disc radii, but that of the other video is",
+            )
+
+    def test_nothing_begins_without_the_packages_of_the_figures(self):
+        # A Python without its installed packages.
+        bare = self.path("bare")
+        with open(bare, "w", encoding="utf-8") as file:
+            file.write('#!/bin/sh\nexec /usr/bin/python3 -S "$@"\n')
+        os.chmod(bare, 0o755)
+        done = swirl(
+            "experiment",
+            self.path("none.mp4"),
+            "--out",
+            self.path("x"),
+            environment={"SWIRL_PYTHON": bare},
+        )
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, r"\Aerror: figures and report need the Debian packages ")
+        self.assertIn("hint: apt install python3-numpy python3-matplotlib", done.stderr)
+        self.assertFalse(os.path.exists(self.path("x")))
+
     def test_tracks_need_no_camera_support(self):
         """A program without `swirl track` compares tracks, and says what a video needs."""
         video = self.videos()[1]

@@ -80,7 +80,7 @@ static ProgramOutput run_script(const std::string& script,
     ProgramOutput output = run_program(words, stop);
     if (output.error == 0) return output;
     throw Failure(
-        fmt::format("'{}' cannot be started: {}; the tables are written.\n"
+        fmt::format("'{}' cannot be started: {}.\n"
                     "hint: install the Debian package python3-matplotlib.",
                     words.front(), std::generic_category().message(output.error)));
 }
@@ -108,6 +108,11 @@ ScriptOutput output_of_python_script(const std::string& script,
     } catch (const Failure& failure) {
         return {-1, failure.what()};
     }
+}
+
+void require_figure_packages() {
+    const ScriptOutput output = output_of_python_script("figure_packages");
+    if (output.status != 0) throw Failure(last_message(output.text));
 }
 
 void become_python_script(const std::string& script, const std::vector<std::string>& arguments) {

@@ -19,6 +19,9 @@ std::filesystem::path figures_folder();
 void run_python_script(const std::string& script, const std::vector<std::string>& arguments,
                        const std::atomic<bool>* stop = nullptr);
 
+/// Throws Failure if a package that figures and reports need is missing.
+void require_figure_packages();
+
 /// The exit status of a script and what it prints; −1 and the reason if it cannot be started.
 struct ScriptOutput {
     int status;
