@@ -4,6 +4,7 @@ and faults. Tracks match the ground truth, or the video is rejected with the cau
 import csv
 import math
 import os
+import re
 import sys
 
 try:
@@ -220,14 +221,47 @@ class OtherVideos(InFolder):
             self.assertRegex(done.stderr, cause)
 
     def test_who_follows_the_hint_of_a_rejection_gets_all_discs(self):
+        # Each hint with options is tried. A part that is too short for tracking is not proposed.
+        sixth, eighth = tuple(range(5, 84, 6)), tuple(range(20, 60, 8))
         cover = "drawbox=t=fill:enable='gte(n,40)'"
-        video, done = self.call(filter=cover)
-        self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertIn("in frames 40 to 83 no disc is visible", done.stderr)
-        self.assertIn("hint: --last-frame 39 leaves these frames out", done.stderr)
+        for given, faults, problem, hints in some(
+            (
+                (
+                    (),
+                    {"filter": cover},
+                    "in frames 40 to 83 no disc is visible",
+                    ["--last-frame 39"],
+                ),
+                (
+                    (),
+                    {"double": sixth},
+                    "14 frames are duplicated",
+                    ["--correct-frames duplicates"],
+                ),
+                (
+                    (),
+                    {"drop": eighth},
+                    "frames are missing before",
+                    ["--correct-frames missing", "--first-frame 48 --last-frame 78"],
+                ),
+                (("--discs", 23), {}, "--discs is 23, but the video shows 20", ["omit --discs"]),
+            ),
+            2,
+        ):
+            video, done = self.call(*given, **faults)
+            self.assertEqual(done.returncode, 1, done.stdout)
+            self.assertIn(problem, done.stderr)
+            hint = done.stderr.partition("hint: ")[2]
+            option = r"--(?:first-frame|last-frame|correct-frames) \S+"
+            tried = re.findall(rf"omit --discs|{option}(?: {option})*", hint)
+            self.assertEqual(tried, hints, hint)
+            for options in tried:
+                words = () if options.startswith("omit") else options.split()
+                video, done = self.call(*words, **faults)
+                self.assertEqual(done.returncode, 0, (options, done.stderr))
+                self.assertEqual(calibration(self.path("tracks.csv"))["discs"], len(video.radii))
+        # The first of these videos, whose frames have their numbers.
         video, done = self.call("--last-frame", 39, filter=cover)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(calibration(self.path("tracks.csv"))["discs"], len(video.radii))
         self.assertLess(self.error_in_frame(video), 0.3)
 
     @slow("two videos of 256 frames, which are not in the repository")

@@ -64,8 +64,8 @@ bool remove_rolling_shutter(Detections& all, TrackedVideo& tracked) {
 [[noreturn]] void reject_path(const RimCentres& rims) {
     const PathCircle circle = circle_through(rims.centres);
     throw Failure(fmt::format(
-        "the container was found, but its centre does not move along a circle: it is {:.1f} pixels "
-        "off the circle that fits best, whose radius is {:.1f} pixels\n{}",
+        "no dish was found: the centre of the clearest circle does not move along a circle: it is "
+        "{:.1f} pixels off the one that fits best, whose radius is {:.1f} pixels\n{}",
         circle.scatter, circle.radius, no_circle_hint));
 }
 

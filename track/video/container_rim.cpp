@@ -93,8 +93,8 @@ class RimSurvey {
         if (best.centres.size() >= min_centres && best.path.scatter < still_scatter &&
             reach < still_reach)
             throw Failure(fmt::format(
-                "the container stands still: its centre stays within {:.1f} pixels\n"
-                "hint: fix the camera to the floor, not to the container, and swirl the container",
+                "no dish was found: the clearest circle stands still, within {:.1f} pixels\n"
+                "hint: if it is the dish, fix the camera to the floor, and swirl the dish",
                 std::max(reach, shown_reach)));
         const std::string circle =
             fmt::format("the largest circle in the frames, with a radius of about {:.0f} pixels,",
@@ -171,7 +171,7 @@ class RimSurvey {
         });
         if (all.front().support < min_rim_support * sampled_)
             throw Failure(
-                "no container found: hardly any frame shows a large circle\n"
+                "no dish was found: hardly any frame shows a large circle\n"
                 "hint: keep the whole rim in the frame, and let it stand out from the table or "
                 "from the floor of the container");
         return all;

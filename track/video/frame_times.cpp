@@ -178,15 +178,21 @@ bool check_frame_jumps(const TrackingSettings& settings, const RimCentres& rims,
                                : found.after_missing.empty() ? "duplicates"
                                                              : "duplicates,missing";
     if (share >= max_share) {
+        constexpr std::int64_t min_part = 16;  // frames, as for a video
         const std::int64_t begin =
             settings.first_frame + static_cast<std::int64_t>(found.longest_begin);
+        const auto longest = static_cast<std::int64_t>(found.longest);
+        const std::string part =
+            longest < min_part ? ""
+                               : fmt::format(
+                                     "--first-frame {} --last-frame {} tracks the longest part "
+                                     "without any; ",
+                                     begin, begin + longest - 1);
         throw Failure(fmt::format(
             "the container moves unevenly: {}; times and Ω would be off by up to {:.1f} %\nhint: "
-            "swirl track --correct-frames {} corrects the times and leaves duplicates out; "
-            "--first-frame {} --last-frame {} tracks the longest part without any; record with a "
-            "constant frame rate",
-            what, 100.0 * share, accept, begin,
-            begin + static_cast<std::int64_t>(found.longest) - 1));
+            "swirl track --correct-frames {} corrects the times and leaves duplicates out; {}"
+            "record with a constant frame rate",
+            what, 100.0 * share, accept, part));
     }
     tracked.warnings.push_back(
         fmt::format("the container moves unevenly: {}; times and Ω are off by up to {:.2f} %; "

@@ -83,7 +83,7 @@ ParticleAppearance survey_appearance(const std::vector<cv::Mat>& images,
         rims.push_back(rim);
         part.emplace_back(images[k], reduction, survey_blur);
     }
-    if (part.empty()) throw Failure("no container found in the frames");
+    if (part.empty()) throw Failure("no dish was found in the frames");
     settings.throw_if_stopped();
     KnownDiscs known;
     if (settings.discs) known.number = static_cast<std::size_t>(*settings.discs);
