@@ -19,7 +19,7 @@ swirl_settings(swirl-documents -O1)
 
 set(documents_folder ${PROJECT_BINARY_DIR}/documents)
 set(manual_pages)
-foreach(program swirl ${command_programs})
+foreach(program swirl ${documented_programs})
   list(APPEND manual_pages ${documents_folder}/${program}.1)
 endforeach()
 list(TRANSFORM manual_pages APPEND .gz OUTPUT_VARIABLE compressed_pages)

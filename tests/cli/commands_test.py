@@ -9,7 +9,7 @@ import subprocess
 import sys
 import unittest
 
-from program import HANG, SOURCE, SWIRL, InFolder, commands, read_text, swirl
+from program import HANG, HIDDEN, SOURCE, SWIRL, InFolder, commands, read_text, swirl
 
 sys.path.insert(0, os.path.join(SOURCE, "tests", "layers"))
 from prose_test import REJECTED  # noqa: E402
@@ -40,6 +40,13 @@ def all_helps(**more):
 
 
 class Commands(unittest.TestCase):
+    def test_hidden_commands_work_but_are_in_no_list(self):
+        for name in HIDDEN:
+            self.assertEqual(swirl(name, "--help").returncode, 0)
+            self.assertNotIn(name, swirl("--help").stdout)
+            # A typing error is not led there.
+            self.assertNotIn(name, swirl(name + "s").stderr.partition("hint:")[2])
+
     def test_the_page_lists_every_command(self):
         listed = re.findall(r"^\| `swirl ([a-z-]+)` \|", read_text(PAGE), re.MULTILINE)
         self.assertEqual(
@@ -60,7 +67,7 @@ class Commands(unittest.TestCase):
         )
         self.assertEqual(
             sorted(registered),
-            sorted(commands()),
+            sorted([*commands(), *HIDDEN]),
             "each command needs a row in src/swirl/cli/command_list.hpp",
         )
 

@@ -10,6 +10,7 @@ import termios
 import unittest
 
 from program import (
+    HIDDEN,
     SOURCE,
     SWIRL,
     ProgramTest,
@@ -223,7 +224,8 @@ class Help(ProgramTest):
 
     def test_messages_name_only_options_that_exist(self):
         known = {
-            name: set(re.findall(r"(--[a-z][a-z0-9-]+)", help_of(name))) for name in commands()
+            name: set(re.findall(r"(--[a-z][a-z0-9-]+)", help_of(name)))
+            for name in (*commands(), *HIDDEN)
         }
         everywhere = set().union(*known.values()) | {"--version", "--help"}
         seen = 0

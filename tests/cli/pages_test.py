@@ -168,6 +168,7 @@ VIDEOS = {
     "rough/a.mp4": 40,
     "s36.mp4": 36,
     "s48.mp4": 48,
+    "shaker.mp4": 20,
 }
 
 
@@ -224,7 +225,7 @@ def missing_input(words, folder):
         re.search(r"\.(mp4|csv|h5|json|toml)$", word)
         and not os.path.exists(os.path.join(folder, word))
         for option, word in zip(words, words[1:])
-        if not option.startswith("--") or option == "--over"
+        if not option.startswith("--") or option in ("--over", "--motion")
     )
 
 

@@ -67,6 +67,10 @@ def swirl(*arguments, timeout=HANG, **more):
     )
 
 
+# Commands that tests and other commands call; no help lists them.
+HIDDEN = ("synthetic-video",)
+
+
 def commands():
     """The names in the list of `swirl --help`."""
     listed = swirl("--help").stdout.partition("Examples:")[0]

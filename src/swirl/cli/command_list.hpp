@@ -7,7 +7,8 @@
 // `libraries` are those that the program links in addition to swirl_cli: "drawing" is
 // swirl_cli_drawing, and so on. Those of this name in the file `packages` are installed to build
 // it. `packages` are the sections of that file that its calls need. "script" is a script of the
-// source folder and no program.
+// source folder and no program. Commands of the group "hidden" serve tests and other commands: no
+// help, manual page and completion has them.
 #pragma once
 
 #include <string_view>
@@ -17,6 +18,7 @@ namespace swirl {
 struct CommandRow {
     std::string_view name, group, libraries, packages, description;
     constexpr bool is_script() const { return libraries == "script"; }
+    constexpr bool is_hidden() const { return group == "hidden"; }
 };
 
 inline constexpr std::string_view help_before_commands = R"(
@@ -38,11 +40,12 @@ inline constexpr CommandRow command_list[] = {
     {"map", "Simulate", "study", "figures", "Map a quantity over one or two parameters"},
     {"track", "Your video", "drawing camera", "movies", "Track the discs in a video of a swirled container"},
     {"measure", "Your video", "", "", "Apply the measurements to recorded frames or tracks"},
+    {"camera", "Your video", "", "movies", "Expected error of a camera, before you record"},
     {"experiment", "Your video", "experiment", "movies figures", "Compare videos with simulations in the paper's figures"},
     {"paper", "The paper", "", "figures python paper", "Make the paper's figures from simulation"},
     {"export", "Files", "", "", "Convert a trajectory for OVITO, ParaView, MDAnalysis, trackpy, HOOMD or pandas"},
     {"verify", "Files", "", "", "Repeat the run of a result or recording and compare bitwise"},
-    {"synthetic-video", "For developers", "drawing", "movies", "Make a video of a run with known ground truth"},
+    {"synthetic-video", "hidden", "drawing", "movies", "Make a video of a run with known ground truth"},
     {"site", "For developers", "script", "", "Documentation and browser page as a web site"},
     {"python", "For developers", "script", "", "Python with the module swirl"},
 };

@@ -1,0 +1,246 @@
+// swirl camera: whether a camera would do. A video as it would record is made from a simulation,
+// tracked by `swirl track`, and compared with the true positions.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <system_error>
+
+#include "swirl/cli/command_line.hpp"
+#include "swirl/cli/commands.hpp"
+#include "swirl/cli/options.hpp"
+#include "swirl/cli/output.hpp"
+#include "swirl/cli/progress_line.hpp"
+#include "swirl/cli/stop_signal.hpp"
+#include "swirl/io/child_process.hpp"
+#include "swirl/io/optional_file.hpp"
+#include "swirl/io/read_number.hpp"
+#include "swirl/io/tracks.hpp"
+#include "swirl/measure/quantities.hpp"
+#include "swirl/run/failure.hpp"
+#include "swirl/run/programs.hpp"
+#include "swirl/run/reading.hpp"
+
+namespace swirl {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CameraCall {
+    std::string size = "1280x720", light = "room", video;
+    double fps = 30.0, period = 0.5;
+    std::int64_t discs = 36;
+    bool quiet = false;
+};
+
+/// How long a camera exposes a frame, and how much its sensor scatters then.
+struct Light {
+    const char* name;
+    double exposure;  // seconds
+    double noise;     // grey levels of 255
+};
+constexpr Light lights[] = {
+    {"bright", 1.0 / 500.0, 1.5}, {"room", 1.0 / 100.0, 3.0}, {"dim", 1.0 / 30.0, 6.0}};
+
+const Light& light_of(const CameraCall& call) {
+    std::vector<std::string> names;
+    for (const Light& light : lights) {
+        if (call.light == light.name) return light;
+        names.emplace_back(light.name);
+    }
+    reject_choice("light", call.light, names);
+}
+
+struct PixelSize {
+    double width = 0.0, height = 0.0;
+};
+PixelSize size_of(const std::string& text) {
+    constexpr double least = 120.0, most = 4096.0;
+    const std::string_view all = text;
+    const std::size_t sign = std::min(all.find('x'), all.size());
+    const auto width = read_number(all.substr(0, sign));
+    const auto height = read_number(all.substr(std::min(sign + 1, all.size())));
+    const auto fits = [&](const auto& side) {
+        return side && *side >= least && *side <= most && std::fmod(*side, 2.0) == 0.0;
+    };
+    if (!fits(width) || !fits(height))
+        throw UsageError(
+            fmt::format("--size is '{}', but it must be WIDTHxHEIGHT with even sides "
+                        "from {:.0f} to {:.0f} pixels, for example 1280x720.",
+                        text, least, most));
+    return {*width, *height};
+}
+
+/// A folder that is removed at the end.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "swirl-camera-XXXXXX").string();
+        if (mkdtemp(name.data()) == nullptr)
+            throw Failure(fmt::format("'{}' cannot be made: {}.", name,
+                                      std::generic_category().message(errno)));
+        path = name;
+    }
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+    fs::path path;
+};
+
+/// What a command of swirl prints. Throws Failure with its error.
+std::string output_of(std::vector<std::string> words, const std::string& before_error) {
+    words.insert(words.begin(), main_program());
+    const ProgramOutput done = run_program(words, &stop_signal());
+    if (stop_signal().load()) throw Interrupted("stopped before the end.");
+    if (done.error != 0)
+        throw Failure(fmt::format("'{}' cannot be started: {}.", words.front(),
+                                  std::generic_category().message(done.error)));
+    if (done.exit_code == 0) return done.text;
+    constexpr std::string_view mark = "error: ";
+    const std::size_t at = done.text.find(mark);
+    std::string reason =
+        at == done.text.npos ? "it ended without a message." : done.text.substr(at + mark.size());
+    while (reason.ends_with('\n')) reason.pop_back();
+    throw Failure(before_error + reason);
+}
+
+/// Tracks next to the true positions.
+struct Deviation {
+    double found = 0.0;  // share of the positions
+    double error = 0.0;  // rms of a coordinate, pixels
+};
+Deviation deviation(const Tracks& truth, const Tracks& tracks, double radius) {
+    std::map<std::int64_t, const TrackFrame*> frames;
+    for (const TrackFrame& frame : tracks.frames) frames[frame.number] = &frame;
+    double sum = 0.0, found = 0.0, all = 0.0;
+    for (const TrackFrame& frame : truth.frames) {
+        all += double(frame.position.size());
+        const auto at = frames.find(frame.number);
+        if (at == frames.end()) continue;
+        for (const Vec2& p : frame.position) {
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Vec2& q : at->second->position)
+                nearest = std::min(nearest, dot(q - p, q - p));
+            if (nearest > 0.25 * radius * radius) continue;
+            found += 1.0;
+            sum += 0.5 * nearest;
+        }
+    }
+    return {found / std::max(all, 1.0), std::sqrt(sum / std::max(found, 1.0))};
+}
+
+/// What the frame rate permits.
+std::string rate_text(double frames_per_period) {
+    std::string text;
+    const auto add = [&](const char* what, double rate) {
+        text += fmt::format("  {:<12}{}\n", what,
+                            frames_per_period >= rate
+                                ? std::string("can be measured")
+                                : fmt::format("needs {:.0f} frames per period", rate));
+    };
+    add("rotation", quantity("rotation.mean_by_time").min_rates.of_tracks);
+    add("pinned", quantity("pinned.share").min_rates.of_tracks);
+    return text;
+}
+
+void try_camera(const CameraCall& call) {
+    constexpr double fill = 0.45;        // of the shorter side, by half of what the dish sweeps
+    constexpr double swept = 11.0;       // disc radii: container, its path and its wall
+    constexpr double most_fps = 120.0;   // that a player shows
+    constexpr double most_frames = 120;  // of the video
+    const Light& light = light_of(call);
+    const PixelSize size = size_of(call.size);
+    if (!(call.fps > 0.0 && call.fps <= 1e5))
+        throw UsageError(
+            fmt::format("--fps is {}, but it must be above 0 and at most 1e5.", call.fps));
+    if (!(call.period > 0.0))
+        throw UsageError(fmt::format("--period is {}, but it must be above 0.", call.period));
+    const double frames_per_period = std::round(call.fps * call.period);
+    if (frames_per_period < 4.0)
+        throw UsageError(fmt::format(
+            "--fps is {} and --period is {}, which is {:.0f} frames per period, but 4 are needed.",
+            call.fps, call.period, frames_per_period));
+    const double scale = fill * std::min(size.width, size.height) / swept;
+    const TemporaryFolder folder;
+    const fs::path video = call.video.empty() ? folder.path / "camera.mp4" : fs::path(call.video);
+    const fs::path tracks = folder.path / "tracks.csv";
+    ProgressLine line("camera", call.quiet);
+    line.show(0.0, "making a video");
+    const auto number = [](double value) { return fmt::format("{}", value); };
+    output_of({"synthetic-video",
+               "--camera",
+               "student",
+               "--discs",
+               std::to_string(call.discs),
+               "--width",
+               number(size.width),
+               "--height",
+               number(size.height),
+               "--scale",
+               number(scale),
+               "--frames-per-period",
+               number(frames_per_period),
+               "--periods",
+               number(std::clamp(most_frames / frames_per_period, 1.3, 6.0)),
+               "--exposure",
+               number(std::min(0.95, light.exposure * call.fps)),
+               "--noise",
+               number(light.noise),
+               "--fps",
+               number(std::clamp(std::round(call.fps), 1.0, most_fps)),
+               "--quality",
+               "23",
+               "--out",
+               video.string(),
+               "--quiet"},
+              "");
+    line.show(0.5, "tracking it");
+    const std::string warnings =
+        output_of({"track", "--out", tracks.string(), "--quiet", "--", video.string()},
+                  "a video by this camera is rejected: ");
+    line.clear();
+    fs::path truth = video;
+    const Deviation off = deviation(read_track_table(truth.replace_extension(".truth.csv")),
+                                    read_track_table(tracks), scale);
+    print_all(fmt::format("{} discs with a radius of {:.1f} pixels, {:.0f} frames per period\n"
+                          "  found       {:.1f} % of the positions\n"
+                          "  error       {:.2f} pixels per position, {:.4f} disc radii\n",
+                          call.discs, scale, frames_per_period, 100.0 * off.found, off.error,
+                          off.error / scale) +
+              rate_text(frames_per_period) + warnings);
+}
+
+void add_camera_command(Subcommand& subcommand) {
+    const auto call = std::make_shared<CameraCall>();
+    std::vector<std::string> names;
+    for (const Light& light : lights) names.emplace_back(light.name);
+    subcommand.add({
+        {"--size", &call->size, "Size of a frame in pixels [1280x720]", "WxH"},
+        {"--fps", &call->fps, "Frames per second [30]", "N"},
+        {"--light", &call->light, "Light on the dish [room]", one_of(names)},
+        {"--period", &call->period, "Duration of one turn of the dish, seconds [0.5]", "SECONDS"},
+        {"--discs", &call->discs, "Number of discs [36]", "N"},
+        {"--video", &call->video, "Keep the video, and its true positions next to it", "FILE.mp4"},
+        {"--quiet", &call->quiet, "No progress line"},
+    });
+    subcommand.explain(
+        "A video as this camera would record is made from a simulation, tracked, and compared with "
+        "the true positions. It has a plain dark floor, bright discs and a still camera: yours can "
+        "be worse.\n");
+    subcommand.set_examples({"swirl camera --size 640x480 --fps 30 --light dim",
+                             "swirl camera --size 1920x1080 --fps 240 --video phone.mp4"});
+    subcommand.callback([call] { try_camera(*call); });
+}
+
+const Command camera_command("camera", add_camera_command);
+
+}  // namespace
+}  // namespace swirl
