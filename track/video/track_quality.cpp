@@ -220,9 +220,13 @@ void measure_quality(const Detections& all, TrackedVideo& tracked) {
     double error = tracked.contact_fitted && !(tracked.readout > 0.0)
                        ? tracked.overlap_error
                        : std::max(tracked.overlap_error, tracked.position_error);
-    // All discs share the error of a shift that was removed, so overlaps do not contain it.
-    if (tracked.contact_fitted || tracked.bounce_error == 0.0)
-        error = std::hypot(error, tracked.shading_shift_error);
+    // All discs share the error of a shift that was removed, so overlaps do not contain it. It is
+    // possible, and no more: the true error is between both.
+    if (tracked.contact_fitted || tracked.bounce_error == 0.0) {
+        const double with_shift = std::hypot(error, tracked.shading_shift_error);
+        tracked.error_factor = std::max(tracked.error_factor, with_shift / error);
+        error = with_shift;
+    }
     if (error == tracked.position_error) return;
     for (auto& errors : tracked.errors)
         for (double& one : errors) one *= error / tracked.position_error;

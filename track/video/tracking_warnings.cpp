@@ -217,7 +217,8 @@ void warn_about_errors(TrackedVideo& tracked) {
     if (tracked.contact_fitted && tracked.error_factor > max_factor)
         warn(tracked,
              "the claimed error of a position, {:.2f} pixels, is right within a factor of {:.1f} "
-             "only: few discs touch each other; a longer video determines it better",
+             "only: few discs touch each other, or light from one side may have shifted all; a "
+             "longer video and even light determine it better",
              tracked.position_error, tracked.error_factor);
     if (tracked.contact_ratio == 0.0)
         warn(tracked,

@@ -82,6 +82,18 @@ TEST(WallBounces, ScatterByTheErrorOfAPosition) {
     }
 }
 
+// A shift by light is possible, and not certain: the factor covers an error without it.
+TEST(ClaimedError, MayBeTooLargeByAPossibleShift) {
+    TrackedVideo tracked = bouncing_disc(1, 0.1);
+    tracked.contact_fitted = true;
+    tracked.overlap_error = 0.1;
+    tracked.error_factor = 1.2;
+    tracked.shading_shift_error = 0.2;
+    measure_quality(Detections(tracked.times.size()), tracked);
+    EXPECT_NEAR(tracked.position_error, std::hypot(0.1, 0.2), 1e-12);
+    EXPECT_NEAR(tracked.error_factor, std::hypot(1.0, 2.0), 1e-12);
+}
+
 /// Three discs that fly freely, and are hit once in about five frames.
 TrackedVideo flying_discs(std::uint64_t seed, double noise) {
     constexpr double radius = 20.0, container = 170.0;
