@@ -34,7 +34,7 @@ struct CameraCall {
     std::string size = "1280x720", light = "room", video;
     double fps = 30.0, period = 0.5;
     std::int64_t discs = 36;
-    bool quiet = false;
+    bool overwrite = false, quiet = false;
 };
 
 /// How long a camera exposes a frame, and how much its sensor scatters then.
@@ -161,6 +161,13 @@ void try_camera(const CameraCall& call) {
     if (!(call.fps > 0.0 && call.fps <= 1e5))
         throw UsageError(
             fmt::format("--fps is {}, but it must be above 0 and at most 1e5.", call.fps));
+    constexpr std::int64_t most_discs = 55;  // that the paper's container holds
+    if (call.discs < 1 || call.discs > most_discs)
+        throw UsageError(fmt::format("--discs is {}, but the dish of this command holds 1 to {}.",
+                                     call.discs, most_discs));
+    if (!call.video.empty() && !call.video.ends_with(".mp4"))
+        throw UsageError(
+            fmt::format("--video is '{}', but its name must end with .mp4.", call.video));
     if (!(call.period > 0.0))
         throw UsageError(fmt::format("--period is {}, but it must be above 0.", call.period));
     const double frames_per_period = std::round(call.fps * call.period);
@@ -175,33 +182,34 @@ void try_camera(const CameraCall& call) {
     ProgressLine line("camera", call.quiet);
     line.show(0.0, "making a video");
     const auto number = [](double value) { return fmt::format("{}", value); };
-    output_of({"synthetic-video",
-               "--camera",
-               "student",
-               "--discs",
-               std::to_string(call.discs),
-               "--width",
-               number(size.width),
-               "--height",
-               number(size.height),
-               "--scale",
-               number(scale),
-               "--frames-per-period",
-               number(frames_per_period),
-               "--periods",
-               number(std::clamp(most_frames / frames_per_period, 1.3, 6.0)),
-               "--exposure",
-               number(std::min(0.95, light.exposure * call.fps)),
-               "--noise",
-               number(light.noise),
-               "--fps",
-               number(std::clamp(std::round(call.fps), 1.0, most_fps)),
-               "--quality",
-               "23",
-               "--out",
-               video.string(),
-               "--quiet"},
-              "");
+    std::vector<std::string> make{"synthetic-video",
+                                  "--camera",
+                                  "student",
+                                  "--discs",
+                                  std::to_string(call.discs),
+                                  "--width",
+                                  number(size.width),
+                                  "--height",
+                                  number(size.height),
+                                  "--scale",
+                                  number(scale),
+                                  "--frames-per-period",
+                                  number(frames_per_period),
+                                  "--periods",
+                                  number(std::clamp(most_frames / frames_per_period, 1.3, 6.0)),
+                                  "--exposure",
+                                  number(std::min(0.95, light.exposure * call.fps)),
+                                  "--noise",
+                                  number(light.noise),
+                                  "--fps",
+                                  number(std::clamp(std::round(call.fps), 1.0, most_fps)),
+                                  "--quality",
+                                  "23",
+                                  "--out",
+                                  video.string(),
+                                  "--quiet"};
+    if (call.overwrite) make.emplace_back("--overwrite");
+    output_of(make, "");
     line.show(0.5, "tracking it");
     const std::string warnings =
         output_of({"track", "--out", tracks.string(), "--quiet", "--", video.string()},
@@ -210,11 +218,11 @@ void try_camera(const CameraCall& call) {
     fs::path truth = video;
     const Deviation off = deviation(read_track_table(truth.replace_extension(".truth.csv")),
                                     read_track_table(tracks), scale);
-    print_all(fmt::format("{} discs with a radius of {:.1f} pixels, {:.0f} frames per period\n"
+    print_all(fmt::format("{} with a radius of {:.1f} pixels, {:.0f} frames per period\n"
                           "  found       {:.1f} % of the positions\n"
                           "  error       {:.2f} pixels per position, {:.4f} disc radii\n",
-                          call.discs, scale, frames_per_period, 100.0 * off.found, off.error,
-                          off.error / scale) +
+                          counted(call.discs, "disc"), scale, frames_per_period, 100.0 * off.found,
+                          off.error, off.error / scale) +
               rate_text(frames_per_period) + warnings);
 }
 
@@ -229,6 +237,7 @@ void add_camera_command(Subcommand& subcommand) {
         {"--period", &call->period, "Duration of one turn of the dish, seconds [0.5]", "SECONDS"},
         {"--discs", &call->discs, "Number of discs [36]", "N"},
         {"--video", &call->video, "Keep the video, and its true positions next to it", "FILE.mp4"},
+        {"--overwrite", &call->overwrite, "Replace the video of --video"},
         {"--quiet", &call->quiet, "No progress line"},
     });
     subcommand.explain(

@@ -30,6 +30,10 @@ class Rehearsal(InFolder):
         self.assertRegex(text, "rotation +needs 16 frames per period")
         for name in ("dish.mp4", "dish.truth.csv"):
             self.assertTrue(os.path.exists(self.path(name)))
+        again = swirl("camera", *SMALL, "--video", video)
+        self.assertEqual(again.returncode, 1, again.stdout)
+        self.assertRegex(again.stderr, "already exists.*\nhint: use --overwrite")
+        self.assertEqual(self.answer("--video", video, "--overwrite")[2], text)
 
     @slow("two more videos")
     def test_dim_light_is_worse(self):
@@ -52,6 +56,9 @@ class Rehearsal(InFolder):
             ("--fps", 0),
             ("--period", -1),
             ("--period", 0.01),
+            ("--discs", 0),
+            ("--discs", 56),
+            ("--video", "dish.avi"),
         ):
             done = swirl("camera", option, value)
             self.assertEqual(done.returncode, 2, done.stderr)
