@@ -196,9 +196,9 @@ LONGER = [
         "--quiet",
     ],
     ["experiment", "IN/in.mp4", "--replicates", "1", *SHORT],
-    ["camera", "--size", "240x240", "--discs", "8", "--video", "o.mp4", "--quiet"],
 ]
 WITHOUT_KILLS = {
+    "camera": "synthetic-video writes its video, and is killed",
     "verify": "writes no file",
     "paper": "waits for a process of its pool that is killed; stored_runs_test.py kills it",
 }
