@@ -53,6 +53,7 @@ bool is_whole(const TrackedVideo& tracked, double disc_radius, std::size_t frame
 
 namespace {
 
+constexpr std::size_t min_occlusion = 4;  // frames in which a hand hides discs
 constexpr double min_complete = 0.9, min_folded = 0.7, max_crowded = 0.05;  // share of the frames
 
 /// Successive frames in each of which many discs are missing.
@@ -228,7 +229,6 @@ void warn_about_errors(TrackedVideo& tracked) {
 }
 
 void warn_about_discs(double outside, TrackedVideo& tracked) {
-    constexpr std::size_t min_occlusion = 4;  // frames
     const Occlusion occlusion = longest_occlusion(tracked);
     const bool hidden = occlusion.size() >= min_occlusion && outside <= complete_rim;
     const std::string omission = omission_text(occlusion, tracked);
@@ -337,8 +337,13 @@ void reject_contradicted_discs(const TrackedVideo& tracked) {
 
 void reject_confused_discs(const TrackedVideo& tracked) {
     constexpr double most = 1.0;  // possible swap for each disc and period; 0.3 with hands
+    // A disc that something covered may be any of those that it covered: that is only a warning.
+    const auto uncovered = [](const PossibleSwap& swap) {
+        return std::max(swap.frame, swap.from) - std::min(swap.frame, swap.from) < min_occlusion;
+    };
+    const auto seen = std::count_if(tracked.swaps.begin(), tracked.swaps.end(), uncovered);
     const double periods = std::max(1.0, tracked.periods()),
-                 swaps = double(tracked.swaps.size()) / (double(tracked.number) * periods);
+                 swaps = double(seen) / (double(tracked.number) * periods);
     if (swaps < most) return;
     throw Failure(fmt::format(
         "the discs cannot be told apart: at {:.1f} frames per period there are {:.1f} possible "
