@@ -102,7 +102,8 @@ is_page_built() {
     [ -e "$pages/index.html" ] && [ -e "$pages/laboratory.html" ] && [ -e "$stamp" ] || return 1
     newer=$(cd "$home" && find src/swirl/math src/swirl/physics src/swirl/engine src/swirl/statistics \
         src/swirl/measure src/swirl/io src/swirl/run bindings/wasm web -path web/node_modules -prune -o \
-        -path web/generated -prune -o -path web/test -prune -o -newer "$stamp" ! -mmin -0 -type f -print 2>/dev/null | head -n 1)
+        -path web/generated -prune -o -path web/test -prune -o \
+        -newer "$stamp" ! -mmin -0 -type f -print 2>/dev/null | head -n 1)
     [ -z "$newer" ] && [ -z "$(find "$stamp" -mmin -0)" ]
 }
 build_page() {

@@ -10,19 +10,15 @@
 #include <map>
 #include <system_error>
 
+#include "swirl/cli/called_command.hpp"
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/options.hpp"
 #include "swirl/cli/output.hpp"
 #include "swirl/cli/progress_line.hpp"
-#include "swirl/cli/stop_signal.hpp"
-#include "swirl/io/child_process.hpp"
-#include "swirl/io/optional_file.hpp"
-#include "swirl/io/read_number.hpp"
 #include "swirl/io/tracks.hpp"
 #include "swirl/measure/quantities.hpp"
 #include "swirl/run/failure.hpp"
-#include "swirl/run/programs.hpp"
 #include "swirl/run/reading.hpp"
 
 namespace swirl {
@@ -55,24 +51,18 @@ const Light& light_of(const CameraCall& call) {
     reject_choice("light", call.light, names);
 }
 
-struct PixelSize {
-    double width = 0.0, height = 0.0;
-};
-PixelSize size_of(const std::string& text) {
-    constexpr double least = 120.0, most = 4096.0;
-    const std::string_view all = text;
-    const std::size_t sign = std::min(all.find('x'), all.size());
-    const auto width = read_number(all.substr(0, sign));
-    const auto height = read_number(all.substr(std::min(sign + 1, all.size())));
-    const auto fits = [&](const auto& side) {
-        return side && *side >= least && *side <= most && std::fmod(*side, 2.0) == 0.0;
+ImageSides size_of(const std::string& text) {
+    constexpr std::int64_t least = 120, most = 4096;
+    const ImageSides size = read_image_size(text).value_or(ImageSides{});
+    const auto fits = [](std::int64_t side) {
+        return side >= least && side <= most && side % 2 == 0;
     };
-    if (!fits(width) || !fits(height))
+    if (!fits(size.width) || !fits(size.height))
         throw UsageError(
             fmt::format("--size is '{}', but it must be WIDTHxHEIGHT with even sides "
-                        "from {:.0f} to {:.0f} pixels, for example 1280x720.",
+                        "from {} to {} pixels, for example 1280x720.",
                         text, least, most));
-    return {*width, *height};
+    return size;
 }
 
 /// A folder that is removed at the end.
@@ -94,23 +84,6 @@ class TemporaryFolder {
 
     fs::path path;
 };
-
-/// What a command of swirl prints. Throws Failure with its error.
-std::string output_of(std::vector<std::string> words, const std::string& before_error) {
-    words.insert(words.begin(), main_program());
-    const ProgramOutput done = run_program(words, &stop_signal());
-    if (stop_signal().load()) throw Interrupted("stopped before the end.");
-    if (done.error != 0)
-        throw Failure(fmt::format("'{}' cannot be started: {}.", words.front(),
-                                  std::generic_category().message(done.error)));
-    if (done.exit_code == 0) return done.text;
-    constexpr std::string_view mark = "error: ";
-    const std::size_t at = done.text.find(mark);
-    std::string reason =
-        at == done.text.npos ? "it ended without a message." : done.text.substr(at + mark.size());
-    while (reason.ends_with('\n')) reason.pop_back();
-    throw Failure(before_error + reason);
-}
 
 /// Tracks next to the true positions.
 struct Deviation {
@@ -157,7 +130,7 @@ void try_camera(const CameraCall& call) {
     constexpr double most_fps = 120.0;   // that a player shows
     constexpr double most_frames = 120;  // of the video
     const Light& light = light_of(call);
-    const PixelSize size = size_of(call.size);
+    const ImageSides size = size_of(call.size);
     if (!(call.fps > 0.0 && call.fps <= 1e5))
         throw UsageError(
             fmt::format("--fps is {}, but it must be above 0 and at most 1e5.", call.fps));
@@ -175,7 +148,7 @@ void try_camera(const CameraCall& call) {
         throw UsageError(fmt::format(
             "--fps is {} and --period is {}, which is {:.0f} frames per period, but 4 are needed.",
             call.fps, call.period, frames_per_period));
-    const double scale = fill * std::min(size.width, size.height) / swept;
+    const double scale = fill * double(std::min(size.width, size.height)) / swept;
     const TemporaryFolder folder;
     const fs::path video = call.video.empty() ? folder.path / "camera.mp4" : fs::path(call.video);
     const fs::path tracks = folder.path / "tracks.csv";
@@ -188,9 +161,9 @@ void try_camera(const CameraCall& call) {
                                   "--discs",
                                   std::to_string(call.discs),
                                   "--width",
-                                  number(size.width),
+                                  std::to_string(size.width),
                                   "--height",
-                                  number(size.height),
+                                  std::to_string(size.height),
                                   "--scale",
                                   number(scale),
                                   "--frames-per-period",
@@ -209,11 +182,12 @@ void try_camera(const CameraCall& call) {
                                   video.string(),
                                   "--quiet"};
     if (call.overwrite) make.emplace_back("--overwrite");
-    output_of(make, "");
+    const std::string stopped = "stopped before the end.";
+    output_of_command(make, stopped);
     line.show(0.5, "tracking it");
     const std::string warnings =
-        output_of({"track", "--out", tracks.string(), "--quiet", "--", video.string()},
-                  "a video by this camera is rejected: ");
+        output_of_command({"track", "--out", tracks.string(), "--quiet", "--", video.string()},
+                          stopped, "a video by this camera is rejected: ");
     line.clear();
     fs::path truth = video;
     const Deviation off = deviation(read_track_table(truth.replace_extension(".truth.csv")),

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "swirl/cli/called_command.hpp"
 #include "swirl/cli/command_line.hpp"
 #include "swirl/cli/commands.hpp"
 #include "swirl/cli/output.hpp"
@@ -16,13 +17,11 @@
 #include "swirl/cli/track_options.hpp"
 #include "swirl/cli/tracks_input.hpp"
 #include "swirl/io/atomic_file.hpp"
-#include "swirl/io/child_process.hpp"
 #include "swirl/io/optional_file.hpp"
 #include "swirl/run/failure.hpp"
 #include "swirl/run/json.hpp"
 #include "swirl/run/measured_series.hpp"
 #include "swirl/run/parse_json.hpp"
-#include "swirl/run/programs.hpp"
 #include "swirl/run/python_script.hpp"
 #include "swirl/run/version.hpp"
 #include "track/cli/video_options.hpp"
@@ -67,25 +66,14 @@ nlohmann::ordered_json tracking_key(const ExperimentCall& call, const std::strin
 /// Calls `swirl track`, so that this program needs no OpenCV. Throws Failure with its error.
 void track(const ExperimentCall& call, const std::string& video, const fs::path& table,
            const fs::path& image) {
-    std::vector<std::string> words{main_program(), "track", "--out",       table,
-                                   "--image",      image,   "--overwrite", "--quiet"};
+    std::vector<std::string> words{"track", "--out",       table,    "--image",
+                                   image,   "--overwrite", "--quiet"};
     if (call.fps) words.insert(words.end(), {"--fps", fmt::format("{}", *call.fps)});
     if (call.frames) words.insert(words.end(), {"--max-frames", std::to_string(*call.frames)});
     if (call.spin) words.emplace_back("--spin");
     words.insert(words.end(), {"--", video});
-    const ProgramOutput done = run_program(words, &stop_signal());
-    if (stop_signal().load()) throw Interrupted("stopped before the end; finished parts are kept.");
-    if (done.error != 0)
-        throw Failure(fmt::format("'{}' cannot be started: {}.", words.front(),
-                                  std::generic_category().message(done.error)));
-    if (done.exit_code == 0) return;
-    // Warnings may precede the error; they are in the calibration, too.
-    constexpr std::string_view mark = "error: ";
-    const std::size_t at = done.text.find(mark);
-    std::string reason = at == done.text.npos ? "`swirl track` ended without a message."
-                                              : done.text.substr(at + mark.size());
-    while (reason.ends_with('\n')) reason.pop_back();
-    throw Failure(reason);
+    // Its warnings are in the calibration, too.
+    output_of_command(words, "stopped before the end; finished parts are kept.");
 }
 
 /// Returns the table of tracks; reuses one from an earlier call with the same video and options.

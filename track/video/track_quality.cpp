@@ -75,13 +75,14 @@ double error_from_flights(const TrackedVideo& tracked) {
     constexpr double length_at_share = 0.7585;  // of two normal deviates: √(−2 ln 0.75)
     constexpr int shares = 20;                  // of the container's motion, from 0 to 1
     constexpr double orders[2][4] = {{1.0, -2.0, 1.0, 0.0}, {1.0, -3.0, 3.0, -1.0}};
+    const std::vector<SeenDisc> discs = seen_discs(tracked);
     double error = 1e300;
     for (const auto& weights : orders) {
         double norm = 0.0;
-        std::size_t points = 0;
-        for (const double weight : weights) norm += weight * weight, points += weight != 0.0;
+        for (const double weight : weights) norm += weight * weight;
+        const std::size_t points = weights[3] == 0.0 ? 3 : 4;
         std::vector<Vec2> own, floor;
-        for (const SeenDisc& disc : seen_discs(tracked))
+        for (const SeenDisc& disc : discs)
             for (std::size_t j = 0; j + points <= disc.frames.size(); ++j) {
                 if (disc.frames[j + points - 1] - disc.frames[j] != points - 1) continue;
                 Vec2 of_disc{0.0, 0.0}, of_floor{0.0, 0.0};

@@ -70,10 +70,7 @@ std::shared_ptr<AppearanceTexts> add_appearance_options(Subcommand& subcommand) 
 namespace {
 
 Size parse_size(const std::string& text) {
-    const auto separator = std::min(text.find('x'), text.size());
-    const auto width = read_whole_number(text.substr(0, separator)).value_or(0);
-    const auto height =
-        separator < text.size() ? read_whole_number(text.substr(separator + 1)).value_or(0) : 0;
+    const auto [width, height] = read_image_size(text).value_or(ImageSides{});
     if (std::min(width, height) < min_side || std::max(width, height) > max_side)
         throw UsageError(fmt::format(
             "--size is '{}', but it must be WIDTHxHEIGHT with sides from {} to {} pixels, for "

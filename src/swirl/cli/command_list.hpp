@@ -8,7 +8,7 @@
 // swirl_cli_drawing, and so on. Those of this name in the file `packages` are installed to build
 // it. `packages` are the sections of that file that its calls need. "script" is a script of the
 // source folder and no program. Commands of the group "hidden" serve tests and other commands: no
-// help, manual page and completion has them.
+// help, manual page or completion names them.
 #pragma once
 
 #include <string_view>
@@ -18,7 +18,8 @@ namespace swirl {
 struct CommandRow {
     std::string_view name, group, libraries, packages, description;
     constexpr bool is_script() const { return libraries == "script"; }
-    constexpr bool is_hidden() const { return group == "hidden"; }
+    /// Has a program, which help, manual pages and completions name.
+    constexpr bool is_listed() const { return !is_script() && group != "hidden"; }
 };
 
 inline constexpr std::string_view help_before_commands = R"(

@@ -224,8 +224,7 @@ void add_measure_command(Subcommand& subcommand) {
     });
     subcommand.explain(
         "FILE is a trajectory or tracks of swirl, a table of another tracker (CSV), or a LAMMPS "
-        "text "
-        "dump. A frame is invalid if discs overlap or lie outside the container "
+        "text dump. A frame is invalid if discs overlap or lie outside the container "
         "(--max-invalid).\n");
     subcommand.set_main_options({"--measure", "--tables", "--json", "--warmup", "--camera-fps",
                                  "--scale", "--omega", "--centre", "--amplitude",

@@ -41,7 +41,7 @@ using DescribedCommands = std::deque<Described>;
 DescribedCommands described_commands() {
     DescribedCommands commands;
     for (const CommandRow& row : command_list) {
-        if (row.is_hidden()) continue;
+        if (!row.is_listed()) continue;
         const std::string program = "swirl-" + std::string(row.name);
         const Command* const command = Command::of_program(program.c_str());
         if (command == nullptr || command->name() != row.name) continue;

@@ -31,7 +31,7 @@ std::string list_of_commands() {
     std::string text(swirl::help_before_commands.substr(1));
     std::string_view group;
     for (const swirl::CommandRow& row : swirl::command_list) {
-        if (row.is_script() || row.is_hidden()) continue;
+        if (!row.is_listed()) continue;
         if (row.group != group) text += "\n" + std::string(row.group) + ":\n";
         group = row.group;
         std::string line = "  " + std::string(row.name);
@@ -80,7 +80,7 @@ std::string_view missing_library(const swirl::CommandRow& row) {
     std::vector<std::string> names{"--help", "--version"};
     if (!word.starts_with('-'))
         for (const swirl::CommandRow& row : swirl::command_list)
-            if (!row.is_script() && !row.is_hidden()) names.emplace_back(row.name);
+            if (row.is_listed()) names.emplace_back(row.name);
     const auto nearest = swirl::nearest_name(word.substr(0, word.find('=')), names);
     throw swirl::UsageError((word.starts_with('-') ? "there is no option " + word + "."
                                                    : "there is no command '" + word + "'.") +

@@ -19,6 +19,7 @@
 #include "swirl/run/failure.hpp"
 #include "swirl/run/parameters.hpp"
 #include "swirl/run/parse_json.hpp"
+#include "swirl/run/reading.hpp"
 
 namespace swirl {
 namespace {
@@ -240,10 +241,8 @@ Tracks read_unrepaired_tracks(const std::string& file, const TableLayout& layout
 
 TableLayout table_layout(const TrackTexts& given) {
     TableLayout layout{.y_up = given.y_up};
-    const std::string_view list = given.columns;
-    for (std::size_t begin = 0; begin < list.size();) {
-        const std::size_t end = std::min(list.find(',', begin), list.size());
-        const std::string_view part = list.substr(begin, end - begin);
+    if (given.columns.empty()) return layout;
+    for (const std::string_view part : split(given.columns, ",")) {
         const std::size_t sign = std::min(part.find('='), part.size());
         const std::string_view key = part.substr(0, sign);
         std::string* const name = key == "frame"      ? &layout.frame
@@ -257,7 +256,6 @@ TableLayout table_layout(const TrackTexts& given) {
                 "frame=Slice,particle=Track.",
                 given.columns));
         *name = part.substr(sign + 1);
-        begin = end + 1;
     }
     return layout;
 }
@@ -279,8 +277,8 @@ TrackScale track_scale(const TrackTexts& given, const std::string& file) {
     for (const auto& [name, text] :
          {std::pair("omega", &texts.omega), std::pair("container-radius", &texts.container_radius)})
         if (text->empty()) {
-            (void)read_unrepaired_tracks(
-                file, table_layout(given));  // a file of another kind is the first problem
+            // A file of another kind is the first problem.
+            (void)read_unrepaired_tracks(file, table_layout(given));
             throw UsageError(fmt::format(
                 "'{}' has no calibration next to it (a .camera.json file), so --{} is required.\n"
                 "hint: also check the defaults --camera-fps 1, --scale 1, --centre 0,0, "

@@ -42,10 +42,9 @@ bool is_named_as_tracks(const std::string& file);
 /// True if the file is HDF5 or named so, but does not hold tracks. Throws Failure if unreadable.
 bool is_trajectory(const std::string& file);
 /// Reads tracks (HDF5, table of a tracker or LAMMPS dump, by their first bytes) and repairs them
-/// (swirl/io/track_repair.hpp). Throws FileError.
-/// Only tables may have another layout.
+/// (swirl/io/track_repair.hpp). Only a table may have another layout. Throws FileError.
 Tracks read_tracks(const std::string& file, const TrackScale& scale, const TableLayout& layout);
-/// Throws UsageError.
+/// The layout that --columns and --y-up give. Throws UsageError.
 TableLayout table_layout(const TrackTexts& given);
 /// Key `format` of a .camera.json; a file without it has format 1.
 inline constexpr int camera_format = 1;

@@ -18,6 +18,14 @@ std::optional<std::int64_t> read_whole_number(std::string_view text) {
     return static_cast<std::int64_t>(*value);
 }
 
+std::optional<ImageSides> read_image_size(std::string_view text) {
+    const auto sides = split(text, "x");
+    if (sides.size() != 2) return {};
+    const auto width = read_whole_number(sides[0]), height = read_whole_number(sides[1]);
+    if (!width || !height) return {};
+    return ImageSides{*width, *height};
+}
+
 std::vector<std::string_view> split(std::string_view text, std::string_view separators) {
     std::vector<std::string_view> parts;
     for (std::size_t begin = 0; begin <= text.size();) {

@@ -17,6 +17,13 @@ namespace swirl {
 /// A whole number that fits into 64 bits ("12", "1e6"); nothing otherwise.
 std::optional<std::int64_t> read_whole_number(std::string_view text);
 
+/// Width and height in pixels.
+struct ImageSides {
+    std::int64_t width = 0, height = 0;
+};
+/// Reads "1280x720"; nothing for any other text.
+std::optional<ImageSides> read_image_size(std::string_view text);
+
 /// The parts between separators, any of these characters. Parts may be empty.
 std::vector<std::string_view> split(std::string_view text, std::string_view separators);
 
