@@ -856,15 +856,15 @@ cd "$1" && mount -t tmpfs -o size=16k swirl build || fail
 
     def test_a_long_build_prints_its_progress(self):
         # The launcher reports when its sleep has ended: here when the build has begun its second
-        # step, which waits for the second sleep.
+        # step, which waits for the second sleep. The second sleep writes one file and a third one
+        # none: a sleep may outlive the launcher, and the test then removes the folder.
         self.write("slower.sh", "touch begun\nuntil [ -e slept-twice ]; do sleep 0.05; done\n")
         self.stand_in(
             "sleep",
             f"""[ "$1" = 10 ] || exec /bin/sleep $1
-cd {self.path("build/release")}
+cd {self.path("build/release")} && ! [ -e slept-twice ] || exit 1
 while ! [ -e begun ]; do [ -d {self.folder} ] || exit; /bin/sleep 0.05; done
-[ ! -e slept ] || touch slept-twice
-touch slept
+if [ -e slept ]; then touch slept-twice; else touch slept; fi
 """,
         )
         self.write(
