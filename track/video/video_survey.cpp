@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
@@ -441,14 +442,12 @@ std::vector<cv::Vec3b> colours_inside(const TrackingSettings& settings, std::int
     return colours;
 }
 
-/// The survey in a plane of colours, if one is proposed and shows at least as many discs as grey.
+/// The survey in a plane of colours, if it shows at least as many discs as `grey`.
 /// Sets `settings.reading.plane`.
-std::optional<Surveyed> survey_colours(TrackingSettings& settings, std::int64_t frame_count,
-                                       const Surveyed& grey) {
-    auto plane = ColourPlane::proposed(colours_inside(settings, frame_count, grey));
-    if (!plane) return std::nullopt;
+std::optional<Surveyed> survey_in_plane(ColourPlane plane, TrackingSettings& settings,
+                                        std::int64_t frame_count, const VideoSurvey& grey) {
     TrackingSettings in_plane = settings;
-    in_plane.reading.plane = std::make_shared<const ColourPlane>(std::move(*plane));
+    in_plane.reading.plane = std::make_shared<const ColourPlane>(std::move(plane));
     std::optional<Surveyed> coloured;
     try {
         coloured = survey_rim(in_plane, frame_count);
@@ -457,15 +456,9 @@ std::optional<Surveyed> survey_colours(TrackingSettings& settings, std::int64_t 
         settings.throw_if_stopped();
         return std::nullopt;
     }
-    std::size_t in_grey = 0;
-    try {
-        Surveyed again = grey;
-        survey_discs(settings, again);
-        in_grey = again.survey.appearance.number;
-    } catch (const Failure&) {
-        settings.throw_if_stopped();
-    }
-    if (coloured->survey.appearance.number < in_grey) return std::nullopt;
+    if (coloured->survey.appearance.number < grey.appearance.number) return std::nullopt;
+    // What covers the rim covers it in grey, too. A plane may show nothing of a grey rim.
+    if (grey.view.hidden < coloured->survey.view.hidden) coloured->survey.view = grey.view;
     settings = std::move(in_plane);
     return coloured;
 }
@@ -474,11 +467,22 @@ std::optional<Surveyed> survey_colours(TrackingSettings& settings, std::int64_t 
 
 VideoSurvey survey_video(TrackingSettings& settings, std::int64_t frame_count) {
     Surveyed grey = survey_rim(settings, frame_count);
+    std::optional<ColourPlane> plane;
     if (!settings.motion_only)
-        if (auto coloured = survey_colours(settings, frame_count, grey))
-            return finished_survey(settings, *coloured);
+        plane = ColourPlane::proposed(colours_inside(settings, frame_count, grey));
+    std::exception_ptr failed;
     try {
         survey_discs(settings, grey);
+    } catch (const Failure&) {
+        settings.throw_if_stopped();
+        failed = std::current_exception();
+        grey.survey.appearance.number = 0;
+    }
+    if (plane)
+        if (auto coloured = survey_in_plane(std::move(*plane), settings, frame_count, grey.survey))
+            return finished_survey(settings, *coloured);
+    try {
+        if (failed) std::rethrow_exception(failed);
         return finished_survey(settings, grey);
     } catch (const UncertainDiscs& failure) {
         rethrow_with_cause(failure, grey.survey.view);
