@@ -116,6 +116,36 @@ TEST(Fields, OfOneCollisionAddUpToItsTransfer) {
     }
 }
 
+// The grid computes them for rows of points at once. The tests of coarse_graining.hpp compare
+// line_average() with sums along the line. Lines that enter a kernel, and leave it, are among them.
+TEST(Fields, OfOneCollisionAreTheLineAveragesAtEveryPoint) {
+    for (const double kernel_width : {0.5, 2.0}) {
+        FieldGrid grid({60, 3.5}, {kernel_width});
+        const Transfer t{{0.4, -0.3}, {1.1, 0.9}, {0.8, -1.7}, 0.5, 0.3, false, 0.25};
+        constexpr double duration = 4.0;
+        grid.add(t);
+        grid.add_sample(true);
+        grid.close_period();
+        grid.close_events(duration);
+        std::size_t crossed = 0;  // points whose kernel the line enters and leaves
+        for (std::size_t cell = 0; cell < grid.grid().cells(); ++cell) {
+            const Vec2 q = grid.grid().centre_of(cell) - t.begin;
+            const LineAverage average = line_average(grid.kernel(), q, t.line);
+            const Stretch stretch = stretch_inside(grid.kernel(), q, t.line);
+            crossed += !stretch.empty() && stretch.begin > 0.0 && stretch.end < 1.0;
+            const auto sum = [&](std::string_view name) {
+                return duration * field(grid, cell, name);
+            };
+            constexpr double rounding = 1e-12;
+            EXPECT_NEAR(sum("collisional_xy"), -0.8 * 0.9 * average.whole, rounding);
+            EXPECT_NEAR(sum("dissipation"), 0.25 * average.whole, rounding);
+            const double couple = 0.5 * (average.whole - average.weighted) - 0.3 * average.weighted;
+            EXPECT_NEAR(sum("collisional_couple_x"), 1.1 * couple, rounding);
+        }
+        EXPECT_GT(crossed, 0U);
+    }
+}
+
 TEST(Fields, AreThoseAtAPointOfTheMFrameRelativeToTheContainer) {
     Fields fields(paper_container_radius);
     for (int k = 0; k < 70; ++k) {

@@ -104,6 +104,12 @@ TEST(TorqueBudget, RowsArePerTimeAndTheProfileSumsToThem) {
         EXPECT_NEAR(profile[1], sum.wall_tangential / 40.0, 1e-13);
         EXPECT_NEAR(profile[2], sum.transfer / 40.0, 1e-13);
     }
+    // What has seen nothing takes over the other's rows.
+    TorqueBudget first;
+    first.merge(budget);
+    const double unaccounted = row_of(budget, "unaccounted_share").mean;
+    EXPECT_GE(unaccounted, 0.0);
+    EXPECT_EQ(row_of(first, "unaccounted_share").mean, unaccounted);
     EXPECT_TRUE(std::isnan(row_of(TorqueBudget(), "orbital").mean));
     EXPECT_TRUE(std::isnan(row_of(TorqueBudget(), "unaccounted_share").mean));
 }

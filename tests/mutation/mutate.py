@@ -4,8 +4,12 @@ A mutation changes one piece of text in a source file. The mutated file goes to 
 that the compiler searches first; the source tree is not changed. For every test file that includes
 the mutated file, this script compiles one program and runs it, until one fails: then the mutation
 is killed. The tests of the file's own layer come first. Each program must pass without the mutation
-before it may kill one. At last, a warning of the compiler kills it, as it stops the build of the
-tests.
+before it may kill one. As in ./check, the tests of math, physics and engine run again with the
+engine's invariants and under the sanitizers. At last, a warning of the compiler kills it, as it
+stops the build of the tests.
+
+A random mutation above the engine that is still alive is built into the program, in a copy of the
+tree, and the scripts that call the program are run (tests/cli, tests/faults).
 
     mutate.py                       the chosen mutations of mutations.py
     mutate.py measure/slip          those of files whose path contains this text
@@ -20,8 +24,9 @@ tests.
                                     a part of a sample. The next call, for the next part, uses the
                                     objects of this one
 
-The score of a random sample is the share that a test notices, of the mutations that compile and are
-not in equivalent.py. A mutation that changes no result, and is not there yet, counts as missed.
+The score of a random sample is the share that a test notices, of the mutations that are built here,
+compile and are not in equivalent.py. A mutation that changes no result, and is not there yet,
+counts as missed.
 
 The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare
 equivalent (with --score: if the score is lower), if an equivalent one is killed, if a chosen one
@@ -37,6 +42,7 @@ import math
 import os
 import re
 import resource
+import shutil
 import signal
 import subprocess
 import sys
@@ -83,6 +89,18 @@ LIBRARIES = [
 # In this order; a test belongs to the layer of its folder. The higher layers need other programs to
 # be tested.
 LAYERS = ("math", "physics", "engine", "statistics", "measure", "io", "run", "study")
+# ./check also runs these layers with the engine's invariants and under the sanitizers (the preset
+# `sanitize`).
+SANITIZED = ("math", "physics", "engine")
+SANITIZERS = [
+    "-fsanitize=address,undefined",
+    "-fno-sanitize-recover=all",
+    "-fno-omit-frame-pointer",
+    "-g1",  # a trace has the name of the invariant that does not hold
+    "-DSWIRL_INTERNAL_CHECKS=1",
+]
+# The scripts that call the program. Those of the page and of the launcher make builds of their own.
+SCRIPTS = ["-R", r"^(cli|faults)\.", "-E", "lab|site|launcher|check_test", "-LE", "slow|soak"]
 # Of these folders a test links the files whose headers it includes, of the others all files.
 BY_HEADER = ("src/swirl/statistics", "src/swirl/measure")
 # The build of the tests treats warnings as errors (cmake/options.cmake); some of them need the
@@ -91,6 +109,8 @@ WARNINGS = ["-O3", "-Wall", "-Wextra", "-Werror"]
 # The longest of these test programs needs a minute, compiled as above. A mutated one may run
 # without end.
 CPU_SECONDS = 150
+
+OUTCOMES = ("killed", "equivalent", "survived", "not compiled", "not built")
 
 
 def text_of(path):
@@ -186,23 +206,28 @@ class Builder:
     """Compiles and runs test programs in a scratch folder, and caches the objects there or in
     another folder."""
 
-    def __init__(self, scratch, baseline_only=False, objects=None):
+    def __init__(self, scratch, baseline_only=False, objects=None, sanitizers=()):
         self.scratch = scratch
         self.objects = objects or scratch
         os.makedirs(self.objects, exist_ok=True)
-        self.compiled_by = repr([version_of_compiler(), FLAGS, baseline_only])
-        self.flags = FLAGS + [
+        flags = [flag for flag in FLAGS if not sanitizers or flag != "-DNDEBUG"] + [*sanitizers]
+        self.compiled_by = repr([version_of_compiler(), flags, baseline_only])
+        self.flags = flags + [
             f"-I{scratch}",
             "-isystem/usr/include/hdf5/serial",
             '-DSWIRL_BUILD="mutated"',
         ]
         if baseline_only:  # the vector width; the wide loops are the same source
             self.flags.append("-DSWIRL_BASELINE_ONLY=1")
-        with open(os.path.join(scratch, "version.inc"), "w", encoding="utf-8") as file:
-            file.write('#define SWIRL_VERSION "0"\n#define SWIRL_COMMIT "0"\n')
+        version = os.path.join(scratch, "version.inc")
+        if not os.path.exists(version):
+            with open(version, "w", encoding="utf-8") as file:
+                file.write('#define SWIRL_VERSION "0"\n#define SWIRL_COMMIT "0"\n')
         self.lock = threading.Lock()
         self.baselines = {}
-        self.headers = os.path.join(scratch, "headers.hpp")
+        self.sanitized = None  # made for the first mutation that needs it
+        self.sanitizers = [*sanitizers]
+        self.headers = os.path.join(scratch, f"headers{'_sanitized' * bool(sanitizers)}.hpp")
         with open(self.headers, "w", encoding="utf-8") as file:
             file.write(
                 "#include <gmock/gmock.h>\n#include <gtest/gtest.h>\n"
@@ -256,12 +281,15 @@ class Builder:
         program = os.path.join(
             overlay or self.scratch, "program_" + os.path.basename(test).removesuffix(".cpp")
         )
-        subprocess.run([COMPILER, *objects, *LIBRARIES, "-o", program], check=True)
+        subprocess.run(
+            [COMPILER, *self.sanitizers, *objects, *LIBRARIES, "-o", program], check=True
+        )
         result = subprocess.run(
             [program, "--gtest_filter=-*.Slow_*:*.Soak_*", "--gtest_brief=1", "--gtest_fail_fast"],
             capture_output=True,
             text=True,
             errors="replace",
+            env={**os.environ, "ASAN_OPTIONS": "handle_sigill=1"},  # as in invariant_test.cpp
             preexec_fn=lambda: resource.setrlimit(
                 resource.RLIMIT_CPU, (CPU_SECONDS, CPU_SECONDS + 1)
             ),
@@ -285,6 +313,22 @@ class Builder:
                     )
         return self.baselines[test][0] == "passed"
 
+    def with_sanitizers(self):
+        with self.lock:
+            if self.sanitized is None:
+                self.sanitized = Builder(self.scratch, True, self.objects, SANITIZERS)
+        return self.sanitized
+
+    def outcomes(self, file, text, overlay, layers):
+        """The builder, the outcome and the test or file of each test program, in their order."""
+        for test in tests_of(file, layers):
+            yield self, test, *self.run(test, file, text, overlay)
+        sanitized_layers = [layer for layer in layers if layer in SANITIZED]
+        for test in tests_of(file, sanitized_layers):
+            builder = self.with_sanitizers()
+            outcome, what = builder.run(test, file, text, overlay)
+            yield builder, test, outcome, f"{what}, under the sanitizers"
+
     def is_rejected(self, file, overlay):
         """Whether the build of the tests stops at a warning about the mutated file."""
         result = subprocess.run(
@@ -304,22 +348,88 @@ class Builder:
         )
         return result.returncode != 0
 
+    def preprocessed(self, path):
+        """What the compiler reads of a file, without and with the invariants."""
+        return [
+            subprocess.run(
+                [COMPILER, *self.flags, *more, f"-I{SOURCE}/src", "-E", "-P", "-x", "c++", path],
+                capture_output=True,
+            ).stdout
+            for more in ((), SANITIZERS)
+        ]
+
     def judge(self, name, file, text, layers=LAYERS):
-        """Returns "killed", "survived" or "not compiled", and the test or the file concerned."""
+        """Returns "killed", "survived", "not compiled" or "not built", and the test or the file
+        concerned. What is for another processor or compiler is not built here."""
         overlay = os.path.join(self.scratch, f"mutation_{name}")
         where = os.path.join(overlay, file.removeprefix("src/"))
         os.makedirs(os.path.dirname(where))
         with open(where, "w", encoding="utf-8") as opened:
             opened.write(text)
-        for test in tests_of(file, layers):
-            outcome, what = self.run(test, file, text, overlay)
+        if self.preprocessed(where) == self.preprocessed(os.path.join(SOURCE, file)):
+            return "not built", ""
+        for builder, test, outcome, what in self.outcomes(file, text, overlay, layers):
             if outcome == "not compiled":
                 return outcome, what
-            if outcome != "passed" and self.passes_unchanged(test):
+            if outcome != "passed" and builder.passes_unchanged(test):
                 return "killed", what if outcome == "failed" else f"{what} (out of time)"
         if file.endswith(".cpp") and self.is_rejected(file, overlay):
             return "killed", "a warning of the compiler"
         return "survived", ""
+
+
+class ProgramInACopy:
+    """A copy of the tree, whose program is built with one mutation after the other."""
+
+    def __init__(self, folder):
+        self.tree = os.path.join(folder, "tree")
+        os.makedirs(self.tree, exist_ok=True)
+        self.lock = threading.Lock()
+        self.passes = None
+
+    def copy_the_sources(self):
+        """Keeps the build of an earlier call."""
+        without = shutil.ignore_patterns("build", ".git", "node_modules", "__pycache__")
+        for name in os.listdir(SOURCE):
+            old, new = os.path.join(self.tree, name), os.path.join(SOURCE, name)
+            if name in ("build", ".git"):
+                continue
+            if os.path.isdir(new):
+                shutil.rmtree(old, ignore_errors=True)
+                shutil.copytree(new, old, ignore=without, symlinks=True)
+            else:
+                shutil.copy2(new, old, follow_symlinks=False)
+
+    def failed_script(self):
+        """The first script that fails, or nothing."""
+        done = subprocess.run(
+            [os.path.join(self.tree, "check"), "--stop-on-failure", *SCRIPTS],
+            capture_output=True,
+            text=True,
+            errors="replace",
+            env={**os.environ, "SWIRL_SOURCE": self.tree, "CTEST_PARALLEL_LEVEL": "2"},
+        )
+        if done.returncode == 0:
+            return ""
+        failed = re.search(r": (\S+) \.*\*\*\*", done.stdout)
+        return failed.group(1) if failed else f"the build: {done.stderr[-300:]}"
+
+    def noticed_by(self, file, text):
+        with self.lock:
+            if self.passes is None:
+                self.copy_the_sources()
+                failed = self.failed_script()
+                self.passes = not failed
+                if failed:
+                    print(f"warning: {failed} fails without a mutation", flush=True)
+            if not self.passes:
+                return ""
+            where = os.path.join(self.tree, file)
+            with open(where, "w", encoding="utf-8") as opened:
+                opened.write(text)
+            failed = self.failed_script()
+            shutil.copyfile(os.path.join(SOURCE, file), where)
+            return failed
 
 
 def check_table():
@@ -351,7 +461,7 @@ def run_chosen(options, pool):
         layers = (file.split("/")[2], "measure") if equivalent else LAYERS
         return builder.judge(number, file, text_of(file).replace(before, after), layers)
 
-    count, wrong = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}, 0
+    count, wrong = dict.fromkeys(OUTCOMES, 0), 0
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
         builder = Builder(scratch, objects=options.objects)
         for number, (outcome, what) in zip(
@@ -376,7 +486,7 @@ def run_chosen(options, pool):
 
 def run_random(options, pool):
     reasons = {(file, before, after): reason for file, before, after, reason in EQUIVALENT}
-    count = {"killed": 0, "equivalent": 0, "survived": 0, "not compiled": 0}
+    count = dict.fromkeys(OUTCOMES, 0)
 
     def judge(builder, number, site):
         file, line, before, after, _ = site
@@ -384,11 +494,17 @@ def run_random(options, pool):
             return "equivalent", reasons[file, before.strip(), after.strip()]
         lines = text_of(file).splitlines(keepends=True)
         lines[line - 1] = after + "\n"
-        layers = (file.split("/")[2],) if options.own_layer else LAYERS
-        return builder.judge(f"random_{number}", file, "".join(lines), layers)
+        own = file.split("/")[2]
+        layers = (own,) if options.own_layer else LAYERS
+        outcome, what = builder.judge(f"random_{number}", file, "".join(lines), layers)
+        if outcome == "survived" and own not in SANITIZED and not options.own_layer:
+            what = program.noticed_by(file, "".join(lines))
+            outcome = "killed" if what else outcome
+        return outcome, what
 
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
         builder = Builder(scratch, baseline_only=True, objects=options.objects)
+        program = ProgramInACopy(options.objects or scratch)
         chosen = [
             (number, site)
             for number, site in enumerate(draw.drawn(SOURCE, options.random, options.seed))

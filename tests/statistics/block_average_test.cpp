@@ -154,6 +154,7 @@ TEST(Statistics, EffectiveSamplesAreThoseOfBlocksWithSamples) {
 
 TEST(Statistics, VeryLongRunsAreCoarsenedWithoutChangingTheMean) {
     BlockSeries series;
+    EXPECT_EQ(series.periods_per_block(), 1u);
     double sum = 0.0;
     for (int i = 0; i < 10240; ++i) {
         series.add(i % 7, 1.0);
