@@ -109,6 +109,8 @@ WARNINGS = ["-O3", "-Wall", "-Wextra", "-Werror"]
 # The longest of these test programs needs a minute, compiled as above. A mutated one may run
 # without end.
 CPU_SECONDS = 150
+# All scripts need ten minutes on two cores, with the build. A mutated program may wait without end.
+HANG = 3600
 
 OUTCOMES = ("killed", "equivalent", "survived", "not compiled", "not built")
 
@@ -401,18 +403,27 @@ class ProgramInACopy:
                 shutil.copy2(new, old, follow_symlinks=False)
 
     def failed_script(self):
-        """The first script that fails, or nothing."""
-        done = subprocess.run(
-            [os.path.join(self.tree, "check"), "--stop-on-failure", *SCRIPTS],
-            capture_output=True,
-            text=True,
+        """The first script that fails or never ends, or nothing."""
+        call = [os.path.join(self.tree, "check"), "--stop-on-failure", *SCRIPTS]
+        environment = {**os.environ, "SWIRL_SOURCE": self.tree, "CTEST_PARALLEL_LEVEL": "2"}
+        with subprocess.Popen(
+            call,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            encoding="utf-8",
             errors="replace",
-            env={**os.environ, "SWIRL_SOURCE": self.tree, "CTEST_PARALLEL_LEVEL": "2"},
-        )
-        if done.returncode == 0:
+            env=environment,
+            start_new_session=True,
+        ) as running:
+            try:
+                said, _ = running.communicate(timeout=HANG)
+            except subprocess.TimeoutExpired:
+                os.killpg(running.pid, signal.SIGKILL)
+                return "a script (waits for ever)"
+        if running.returncode == 0:
             return ""
-        failed = re.search(r": (\S+) \.*\*\*\*", done.stdout)
-        return failed.group(1) if failed else f"the build: {done.stderr[-300:]}"
+        failed = re.search(r": (\S+) \.*\*\*\*", said)
+        return failed.group(1) if failed else f"the build: {said[-300:]}"
 
     def noticed_by(self, file, text):
         with self.lock:
