@@ -202,7 +202,10 @@ class OtherVideos(InFolder):
         for faults, cause in some(
             (
                 ({"filter": "scale=iw:trunc(ih*0.4)*2"}, r"inclined by about 3[5-9] degrees"),
-                ({"filter": "drawbox=w=iw/2:t=fill"}, r"(4[5-9]|5\d) % of the container's rim shows no edge"),
+                (
+                    {"filter": "drawbox=w=iw/2:t=fill"},
+                    r"(4[5-9]|5\d) % of the container's rim shows no edge",
+                ),
                 ({"filter": "crop=320:200:0:0"}, r"3\d % of the container's rim lies outside"),
                 ({"drop": tuple(range(6, 84))}, r"the video has 6 frames, too few"),
                 (
