@@ -116,8 +116,8 @@ TEST(Fields, OfOneCollisionAddUpToItsTransfer) {
     }
 }
 
-// The grid computes them for rows of points at once. The tests of coarse_graining.hpp compare
-// line_average() with sums along the line. Lines that enter a kernel, and leave it, are among them.
+// The grid computes these averages for rows of points at once. The tests of coarse_graining.hpp
+// compare line_average() with sums along the line. The line enters and leaves some of the kernels.
 TEST(Fields, OfOneCollisionAreTheLineAveragesAtEveryPoint) {
     for (const double kernel_width : {0.5, 2.0}) {
         FieldGrid grid({60, 3.5}, {kernel_width});

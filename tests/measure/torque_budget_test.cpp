@@ -104,7 +104,7 @@ TEST(TorqueBudget, RowsArePerTimeAndTheProfileSumsToThem) {
         EXPECT_NEAR(profile[1], sum.wall_tangential / 40.0, 1e-13);
         EXPECT_NEAR(profile[2], sum.transfer / 40.0, 1e-13);
     }
-    // What has seen nothing takes over the other's rows.
+    // A budget without events takes over the rows of the one that is merged.
     TorqueBudget first;
     first.merge(budget);
     const double unaccounted = row_of(budget, "unaccounted_share").mean;

@@ -24,9 +24,9 @@ tree, and the scripts that call the program are run (tests/cli, tests/faults).
                                     a part of a sample. The next call, for the next part, uses the
                                     objects of this one
 
-The score of a random sample is the share that a test notices, of the mutations that are built here,
-compile and are not in equivalent.py. A mutation that changes no result, and is not there yet,
-counts as missed.
+The score of a random sample is the share that a test notices, of the mutations that are built,
+compile and are not in equivalent.py. A line for another processor or a wider vector is not built. A
+mutation that changes no result, and is not in equivalent.py yet, counts as missed.
 
 The exit code is 1 if a mutation survives that the table (or equivalent.py) does not declare
 equivalent (with --score: if the score is lower), if an equivalent one is killed, if a chosen one
@@ -109,7 +109,8 @@ WARNINGS = ["-O3", "-Wall", "-Wextra", "-Werror"]
 # The longest of these test programs needs a minute, compiled as above. A mutated one may run
 # without end.
 CPU_SECONDS = 150
-# All scripts need ten minutes on two cores, with the build. A mutated program may wait without end.
+# Seconds by the clock. The scripts need ten minutes on two cores, with the build. A mutated program
+# may wait without end.
 HANG = 3600
 
 OUTCOMES = ("killed", "equivalent", "survived", "not compiled", "not built")
@@ -219,17 +220,16 @@ class Builder:
             "-isystem/usr/include/hdf5/serial",
             '-DSWIRL_BUILD="mutated"',
         ]
+        self.baseline_only = baseline_only
         if baseline_only:  # the vector width; the wide loops are the same source
             self.flags.append("-DSWIRL_BASELINE_ONLY=1")
-        version = os.path.join(scratch, "version.inc")
-        if not os.path.exists(version):
-            with open(version, "w", encoding="utf-8") as file:
-                file.write('#define SWIRL_VERSION "0"\n#define SWIRL_COMMIT "0"\n')
+        with open(os.path.join(scratch, "version.inc"), "w", encoding="utf-8") as file:
+            file.write('#define SWIRL_VERSION "0"\n#define SWIRL_COMMIT "0"\n')
         self.lock = threading.Lock()
         self.baselines = {}
         self.sanitized = None  # made for the first mutation that needs it
         self.sanitizers = [*sanitizers]
-        self.headers = os.path.join(scratch, f"headers{'_sanitized' * bool(sanitizers)}.hpp")
+        self.headers = os.path.join(scratch, "headers.hpp")
         with open(self.headers, "w", encoding="utf-8") as file:
             file.write(
                 "#include <gmock/gmock.h>\n#include <gtest/gtest.h>\n"
@@ -239,6 +239,23 @@ class Builder:
             [COMPILER, *self.flags, "-x", "c++-header", self.headers, "-o", self.headers + ".gch"],
             check=True,
         )
+
+    def parts(self, test):
+        """Those of parts(test) that this builder compiles."""
+        return [p for p in parts(test) if not (self.baseline_only and self.wide_flags(p))]
+
+    @staticmethod
+    def wide_flags(part):
+        return [flag for ending, flags in WIDE.items() if part.endswith(ending) for flag in flags]
+
+    def command(self, part, file, overlay):
+        """The call of the compiler for `part`, with the file of that name in the overlay."""
+        where = os.path.join(SOURCE, part)
+        if part == file:
+            where = os.path.join(overlay, part.removeprefix("src/"))
+        folders = [overlay, *(os.path.join(SOURCE, folder) for folder in ("src", "tests", "bench"))]
+        search = ["-I" + folder for folder in folders]
+        return [COMPILER, *self.flags, *self.wide_flags(part), *search, where]
 
     def compiled(self, part, file, text, overlay):
         """The object of `part`, compiled with `text` instead of `file`; None if it does not
@@ -250,17 +267,11 @@ class Builder:
         target = os.path.join(self.objects, hashed.hexdigest()[:32] + ".o")
         if os.path.exists(target):
             return target
-        where = os.path.join(SOURCE, part)
-        if part == file:
-            where = os.path.join(overlay, part.removeprefix("src/"))
-        wide = [flag for ending, flags in WIDE.items() if part.endswith(ending) for flag in flags]
-        # The precompiled headers were compiled without these flags, so they cannot be used.
-        headers = [] if wide else ["-include", self.headers]
+        # The precompiled headers were compiled without the flags of wide vectors.
+        headers = [] if self.wide_flags(part) else ["-include", self.headers]
         made = target + f".{os.getpid()}.{threading.get_ident()}"
-        folders = [overlay, *(os.path.join(SOURCE, folder) for folder in ("src", "tests", "bench"))]
-        search = ["-I" + folder for folder in folders]
         result = subprocess.run(
-            [COMPILER, *self.flags, *wide, *headers, *search, "-c", where, "-o", made],
+            [*self.command(part, file, overlay), *headers, "-c", "-o", made],
             capture_output=True,
             text=True,
         )
@@ -273,9 +284,7 @@ class Builder:
         """Compiles and runs one test file. Returns "passed", "failed", "time" or "not compiled",
         and the test or the file concerned."""
         objects = []
-        for part in parts(test):
-            if "_avx" in part and "-DSWIRL_BASELINE_ONLY=1" in self.flags:
-                continue
+        for part in self.parts(test):
             made = self.compiled(part, file, text, overlay or self.scratch)
             if made is None:
                 return "not compiled", part
@@ -318,7 +327,11 @@ class Builder:
     def with_sanitizers(self):
         with self.lock:
             if self.sanitized is None:
-                self.sanitized = Builder(self.scratch, True, self.objects, SANITIZERS)
+                scratch = os.path.join(self.scratch, "sanitized")
+                os.mkdir(scratch)
+                self.sanitized = Builder(
+                    scratch, baseline_only=True, objects=self.objects, sanitizers=SANITIZERS
+                )
         return self.sanitized
 
     def outcomes(self, file, text, overlay, layers):
@@ -332,7 +345,7 @@ class Builder:
             yield builder, test, outcome, f"{what}, under the sanitizers"
 
     def is_rejected(self, file, overlay):
-        """Whether the build of the tests stops at a warning about the mutated file."""
+        """True if the build of the tests stops at a warning about the mutated file."""
         result = subprocess.run(
             [
                 COMPILER,
@@ -350,25 +363,32 @@ class Builder:
         )
         return result.returncode != 0
 
-    def preprocessed(self, path):
-        """What the compiler reads of a file, without and with the invariants."""
-        return [
-            subprocess.run(
-                [COMPILER, *self.flags, *more, f"-I{SOURCE}/src", "-E", "-P", "-x", "c++", path],
-                capture_output=True,
-            ).stdout
+    def preprocessed(self, part, file, overlay, more):
+        return subprocess.run(
+            [*self.command(part, file, overlay), *more, "-E", "-P"], capture_output=True
+        ).stdout
+
+    def is_built(self, file, overlay, layers):
+        """True if a part of the tests contains the mutated line. A line for another processor,
+        compiler or vector width is in none."""
+        all_parts = [part for test in tests_of(file, layers) for part in self.parts(test)]
+        return any(
+            self.preprocessed(part, file, overlay, more)
+            != self.preprocessed(part, None, self.scratch, more)
+            for part in dict.fromkeys(all_parts)
+            if file in included(part)
             for more in ((), SANITIZERS)
-        ]
+        )
 
     def judge(self, name, file, text, layers=LAYERS):
         """Returns "killed", "survived", "not compiled" or "not built", and the test or the file
-        concerned. What is for another processor or compiler is not built here."""
+        concerned."""
         overlay = os.path.join(self.scratch, f"mutation_{name}")
         where = os.path.join(overlay, file.removeprefix("src/"))
         os.makedirs(os.path.dirname(where))
         with open(where, "w", encoding="utf-8") as opened:
             opened.write(text)
-        if self.preprocessed(where) == self.preprocessed(os.path.join(SOURCE, file)):
+        if not self.is_built(file, overlay, layers):
             return "not built", ""
         for builder, test, outcome, what in self.outcomes(file, text, overlay, layers):
             if outcome == "not compiled":
@@ -383,52 +403,31 @@ class Builder:
 class ProgramInACopy:
     """A copy of the tree, whose program is built with one mutation after the other."""
 
-    def __init__(self, folder):
-        self.tree = os.path.join(folder, "tree")
-        os.makedirs(self.tree, exist_ok=True)
+    def __init__(self, scratch):
+        self.tree = os.path.join(scratch, "tree")
+        self.log = os.path.join(scratch, "check.log")
         self.lock = threading.Lock()
-        self.passes = None
-
-    def copy_the_sources(self):
-        """Keeps the build of an earlier call."""
-        without = shutil.ignore_patterns("build", ".git", "node_modules", "__pycache__")
-        for name in os.listdir(SOURCE):
-            old, new = os.path.join(self.tree, name), os.path.join(SOURCE, name)
-            if name in ("build", ".git"):
-                continue
-            if os.path.isdir(new):
-                shutil.rmtree(old, ignore_errors=True)
-                shutil.copytree(new, old, ignore=without, symlinks=True)
-            else:
-                shutil.copy2(new, old, follow_symlinks=False)
+        self.passes = None  # without a mutation; unknown before the first one
 
     def failed_script(self):
         """The first script that fails or never ends, or nothing."""
-        call = [os.path.join(self.tree, "check"), "--stop-on-failure", *SCRIPTS]
-        environment = {**os.environ, "SWIRL_SOURCE": self.tree, "CTEST_PARALLEL_LEVEL": "2"}
-        with subprocess.Popen(
-            call,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            encoding="utf-8",
-            errors="replace",
-            env=environment,
-            start_new_session=True,
-        ) as running:
-            try:
-                said, _ = running.communicate(timeout=HANG)
-            except subprocess.TimeoutExpired:
-                os.killpg(running.pid, signal.SIGKILL)
-                return "a script (waits for ever)"
-        if running.returncode == 0:
+        call = ["timeout", str(HANG), f"{self.tree}/check", "--stop-on-failure", *SCRIPTS]
+        with open(self.log, "w", encoding="utf-8") as log:
+            code = subprocess.run(call, stdout=log, stderr=subprocess.STDOUT).returncode
+        if code == 0:
             return ""
+        if code == 124:
+            return "a script (waits for ever)"
+        with open(self.log, encoding="utf-8", errors="replace") as log:
+            said = log.read()
         failed = re.search(r": (\S+) \.*\*\*\*", said)
         return failed.group(1) if failed else f"the build: {said[-300:]}"
 
     def noticed_by(self, file, text):
         with self.lock:
             if self.passes is None:
-                self.copy_the_sources()
+                omitted = shutil.ignore_patterns("build", ".git", "node_modules", "__pycache__")
+                shutil.copytree(SOURCE, self.tree, ignore=omitted, symlinks=True)
                 failed = self.failed_script()
                 self.passes = not failed
                 if failed:
@@ -515,7 +514,7 @@ def run_random(options, pool):
 
     with tempfile.TemporaryDirectory(prefix="swirl_mutation_") as scratch:
         builder = Builder(scratch, baseline_only=True, objects=options.objects)
-        program = ProgramInACopy(options.objects or scratch)
+        program = ProgramInACopy(scratch)
         chosen = [
             (number, site)
             for number, site in enumerate(draw.drawn(SOURCE, options.random, options.seed))
@@ -554,7 +553,7 @@ def main():
     call = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     call.add_argument("part", nargs="?", default="", help="mutate files whose path contains this")
     call.add_argument("--number", type=int, nargs="*", help="numbers of the mutations to run")
-    call.add_argument("--every", type=int, default=1, help="run one of so many mutations [1]")
+    call.add_argument("--every", type=int, default=1, help="run the first of each N mutations [1]")
     call.add_argument("--check", action="store_true", help="check the table only")
     call.add_argument(
         "--random", type=int, default=0, metavar="COUNT", help="draw this many mutations"

@@ -210,11 +210,11 @@ std::optional<PoorView> poor_view(const RimView& view) {
                       100.0 * view.outside),
           "record the whole container; a tenth of the rim outside does no harm"}},
         {view.hidden / max_hidden,
-         {fmt::format("{:.0f} % of the container's rim shows no edge, as something covers it or it "
-                      "looks like what is next to it",
+         {fmt::format("{:.0f} % of the container's rim shows no edge, because something covers it "
+                      "or it is as bright as its surroundings",
                       100.0 * view.hidden),
-          "take away what covers the container, or use a rim that differs from its floor; a hand "
-          "that comes and goes does no harm"}},
+          "take away what covers the container, or use a rim that is brighter or darker than "
+          "the floor; a hand that comes and goes does no harm"}},
         {(view.smear - 1.0) / (max_smear - 1.0),
          {fmt::format("the motion blurs the frames: edges across it are {:.1f} times as wide as "
                       "edges along it",

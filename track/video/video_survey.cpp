@@ -457,7 +457,7 @@ std::optional<Surveyed> survey_in_plane(ColourPlane plane, TrackingSettings& set
         return std::nullopt;
     }
     if (coloured->survey.appearance.number < grey.appearance.number) return std::nullopt;
-    // What covers the rim covers it in grey, too. A plane may show nothing of a grey rim.
+    // A hand on the rim is seen in grey, too, but a plane of colours may not show a grey rim.
     if (grey.view.hidden < coloured->survey.view.hidden) coloured->survey.view = grey.view;
     settings = std::move(in_plane);
     return coloured;

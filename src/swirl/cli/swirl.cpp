@@ -48,7 +48,7 @@ int print_all(const std::string& text) {
                          ".");
 }
 
-/// What the build lacks for a command; empty if nothing.
+/// The library of a command that this build lacks; empty if it lacks none.
 std::string_view missing_library(const swirl::CommandRow& row) {
     if (row.libraries.find("camera") != row.libraries.npos && !SWIRL_HAS_CAMERA) return "camera";
     if (row.libraries.find("drawing") != row.libraries.npos && !SWIRL_HAS_DRAWING) return "drawing";
